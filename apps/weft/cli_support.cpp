@@ -1,0 +1,238 @@
+#include "apps/weft/cli_support.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "runtime/error.h"
+#include "simulation/scene/near_miss.h"
+
+namespace weft {
+namespace {
+
+/// The subcommand that the user has chosen, or weft itself.
+const CLI::App& chosen_command(const CLI::App& app) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    return chosen.empty() ? app : chosen_command(*chosen.front());
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(command->get_name());
+    }
+    return names;
+}
+
+std::string command_path(const CLI::App& app, const CLI::App& command) {
+    return &app == &command ? app.get_name() : app.get_name() + " " + command.get_name();
+}
+
+/// For a word that nothing expects: what it may have been meant to be.
+std::string describe_stray_word(const CLI::App& app, const CLI::App& command,
+                                const std::string& word) {
+    const std::string help = fmt::format("see '{} --help'", command_path(app, command));
+    if (word.starts_with("-")) {
+        const std::string name = word.substr(0, word.find('='));
+        const std::string near = near_miss(name, option_names(command));
+        return fmt::format("unknown option '{}'; {}", name, near.empty() ? help : near);
+    }
+    if (&app == &command) {
+        return fmt::format("unknown command '{}'; {}", word,
+                           near_miss_or_list(word, command_names(app)));
+    }
+    return fmt::format("unexpected argument '{}'; {}", word, help);
+}
+
+std::string one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// --memory; "auto": what the device says of itself.
+std::optional<MemoryModel> memory_model(const std::string& name) {
+    for (const auto model : {MemoryModel::kHost, MemoryModel::kMapped, MemoryModel::kDiscrete}) {
+        if (name == name_of(model)) return model;
+    }
+    return std::nullopt;
+}
+
+PlanKind plan_kind(const std::string& name) {
+    if (name == "auto") return PlanKind::kAuto;
+    if (name == "exact") return PlanKind::kExact;
+    if (name == "single") return PlanKind::kSingle;
+    throw UserError(fmt::format(
+        "--plan {}: not in this version of weft; available: auto, exact, single", name));
+}
+
+std::string& noted_command_line() {
+    static std::string line;
+    return line;
+}
+
+}  // namespace
+
+std::vector<Override> RunOptions::overrides() const {
+    std::vector<Override> list;
+    for (const std::string& assignment : set) list.push_back({assignment, "--set " + assignment});
+    const auto add = [&](const std::optional<std::string>& value, const char* option,
+                         const char* path) {
+        if (value)
+            list.push_back(
+                {fmt::format("{}={}", path, *value), fmt::format("{} {}", option, *value)});
+    };
+    add(solver, "--solver", "solver.method");
+    add(frames, "--frames", "scene.frames");
+    add(substeps, "--substeps", "scene.substeps");
+    add(iterations, "--iterations", "solver.iterations");
+    return list;
+}
+
+SimulationOptions RunOptions::simulation() const {
+    SimulationOptions options;
+    options.devices = device;
+    options.plan = plan_kind(plan);
+    options.device_options.strict_math = math == "strict";
+    options.device_options.memory = memory_model(memory);
+    if (!strips.empty()) options.division = Division{strips};
+    return options;
+}
+
+void add_scene_options(CLI::App& command, RunOptions& options) {
+    command.add_option("SCENE", options.scene, "scene file (.toml)")->required()->type_name("FILE");
+    const std::string group = "Scene";
+    command.add_option("--solver", options.solver, "solver; overrides the scene")
+        ->type_name("NAME")
+        ->group(group);
+    command.add_option("--frames", options.frames, "frames; overrides the scene")
+        ->type_name("N")
+        ->group(group);
+    command.add_option("--substeps", options.substeps, "steps per frame; overrides the scene")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--iterations", options.iterations,
+                    "iterations per substep; overrides the scene")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--set", options.set,
+                    "override any scene value, as in --set scene.size=1000000 or "
+                    "--set cloth[0].density=0.3; may be repeated")
+        ->type_name("TABLE.KEY=VALUE")
+        ->allow_extra_args(false)
+        ->group(group);
+}
+
+void add_device_options(CLI::App& command, RunOptions& options) {
+    const std::string group = "Devices";
+    command
+        .add_option("--device", options.device,
+                    "cpu, opencl, hybrid, or parts joined by '+', as in cpu/1+opencl:0/1: one "
+                    "core, and one compute unit of OpenCL device 0")
+        ->type_name("LIST")
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--plan", options.plan, "auto, exact (strips and seams), async, single")
+        ->type_name("KIND")
+        ->check(one_of({"auto", "exact", "async", "single"}))
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--math", options.math,
+                    "strict (the same bits on every device and plan) or fast")
+        ->type_name("KIND")
+        ->check(one_of({"strict", "fast"}))
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--memory", options.memory,
+                    "how OpenCL devices reach memory: auto (as they say), host, mapped or discrete")
+        ->type_name("KIND")
+        ->check(one_of({"auto", "host", "mapped", "discrete"}))
+        ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--strips", options.strips,
+                    "divide the strips so among the devices, as in 12,20, instead of planning it; "
+                    "weft inspect says how many there are")
+        ->type_name("N,N")
+        ->delimiter(',')
+        ->check(CLI::NonNegativeNumber)
+        ->group(group);
+}
+
+void add_output_options(CLI::App& command, RunOptions& options) {
+    const std::string group = "Output";
+    command.add_option("--out", options.out, "output folder; default: out/<scene name>")
+        ->type_name("DIR")
+        ->group(group);
+    command.add_flag("--no-geometry", options.no_geometry, "write no geometry")->group(group);
+    command.add_flag("--no-trace", options.no_trace, "write no trace")->group(group);
+    auto* force = command.add_flag("--force", options.force, "overwrite a finished run");
+    auto* resume = command.add_flag("--resume", options.resume, "continue a run that was stopped (not in this version)");
+    force->group(group)->excludes(resume);
+    resume->group(group);
+}
+
+void add_talk_options(CLI::App& command, RunOptions& options) {
+    command.add_flag("--quiet", options.quiet, "say nothing but results and errors");
+    command.add_flag("--json", options.json, "print the results as one JSON document");
+}
+
+void add_run_options(CLI::App& command, RunOptions& options) {
+    add_scene_options(command, options);
+    add_device_options(command, options);
+    add_output_options(command, options);
+    add_talk_options(command, options);
+    command
+        .add_flag_callback(
+            "--print-schema",
+            [] {
+                std::cout << scene_json_schema() << '\n';
+                throw CLI::Success();
+            },
+            "print the JSON Schema of scene files, and stop")
+        ->trigger_on_parse();
+}
+
+void note_command_line(int argc, char** argv) {
+    noted_command_line() = fmt::format("{}", fmt::join(argv, argv + argc, " "));
+}
+
+const std::string& command_line() { return noted_command_line(); }
+
+void print_warnings(const Warnings& warnings) {
+    for (const std::string& warning : warnings) std::cerr << "weft: warning: " << warning << '\n';
+}
+
+CLI::Validator one_of(std::vector<std::string> choices) {
+    const auto check = [choices = std::move(choices)](const std::string& value) -> std::string {
+        if (std::find(choices.begin(), choices.end(), value) != choices.end()) return "";
+        return fmt::format("'{}' is unknown; {}", value, near_miss_or_list(value, choices));
+    };
+    return CLI::Validator(check, "");
+}
+
+std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::App& command = chosen_command(app);
+    const std::vector<std::string> stray = command.remaining();
+    if (!stray.empty()) return describe_stray_word(app, command, stray.front());
+    if (&app == &command) {
+        return fmt::format("a command is missing; known: {}", fmt::join(command_names(app), ", "));
+    }
+    return fmt::format("{}; see '{} --help'", one_line(error.what()), command_path(app, command));
+}
+
+}  // namespace weft

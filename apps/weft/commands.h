@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// Every subcommand of weft, one file each (<name>_command.cpp). A function adds its subcommand,
+/// with its options, its help with an example, and a callback that does the work. It throws
+/// UserError or RunError; main.cpp turns these into messages and exit codes.
+namespace weft {
+
+void add_devices_command(CLI::App& app);
+void add_inspect_command(CLI::App& app);
+void add_plan_command(CLI::App& app);
+void add_run_command(CLI::App& app);
+void add_trace_command(CLI::App& app);
+
+}  // namespace weft

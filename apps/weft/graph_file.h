@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scheduler/task_graph.h"
+
+namespace weft {
+
+/// A task graph and the names of its processors, as `weft plan` reads them from JSON:
+///
+///   { "processors": ["cpu", "gpu"],
+///     "tasks": [ {"name": "a", "cost": [14, 16]}, {"name": "b", "cost": [13, null]} ],
+///     "edges": [ ["a", "b", 18] ],
+///     "latency": 0, "bandwidth": 1 }
+///
+/// latency and bandwidth may be left out; each is one number, or one row per processor that data
+/// come from with one number per processor that they go to.
+struct GraphFile {
+    std::vector<std::string> processors;
+    scheduler::TaskGraph graph;  ///< sealed
+};
+
+/// Throws UserError with the file and the line and column, or the field, that is wrong.
+GraphFile read_graph_file(const std::string& path);
+
+}  // namespace weft

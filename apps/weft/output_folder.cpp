@@ -1,0 +1,86 @@
+#include "apps/weft/output_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "runtime/error.h"
+#include "simulation/output/geometry_writer.h"
+
+namespace weft {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+    throw UserError("--out " + path.string() + ": " + why);
+}
+
+/// A summary that cannot be read counts as finished: better to refuse than to overwrite.
+bool is_finished(const fs::path& summary) {
+    if (!fs::exists(summary)) return false;
+    std::ifstream stream(summary);
+    const auto json = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+    return !(json.is_object() && json.contains("finished") && json["finished"] == false);
+}
+
+/// The folder itself, or the nearest one above it that is there.
+fs::path nearest_existing(fs::path path) {
+    path = fs::absolute(path);
+    std::error_code ignored;
+    while (!fs::exists(path, ignored) && path.has_relative_path()) path = path.parent_path();
+    return path;
+}
+
+void check_writable(const fs::path& path) {
+    const fs::path there = nearest_existing(path);
+    if (!fs::is_directory(there)) refuse(path, "'" + there.string() + "' is not a folder");
+    if (::access(there.c_str(), W_OK | X_OK) != 0) {
+        refuse(path, "'" + there.string() + "' cannot be written: " + std::strerror(errno) +
+                         "; choose another folder");
+    }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
+    if (is_finished(summary()) && !force) {
+        refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
+    }
+    check_writable(path_);
+    replaces_unfinished_ =
+        !is_finished(summary()) && (fs::exists(trace()) || fs::exists(geometry()));
+}
+
+OutputFolder::~OutputFolder() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFolder::claim() {
+    std::error_code error;
+    fs::create_directories(path_, error);
+    if (error) refuse(path_, "the folder cannot be made: " + error.message());
+    lock();
+    for (const fs::path& old :
+         {summary(), trace(), geometry(), GeometryWriter::xdmf_path(geometry())}) {
+        fs::remove(old, error);
+        if (error) refuse(path_, "'" + old.string() + "' cannot be replaced: " + error.message());
+    }
+}
+
+/// The lock is on the folder itself, so that it leaves nothing behind, however the run ends.
+void OutputFolder::lock() {
+    descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0) refuse(path_, std::string("cannot be opened: ") + std::strerror(errno));
+    // File systems without locks let everyone in.
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    refuse(path_, "another run is writing there; choose another folder");
+}
+
+}  // namespace weft

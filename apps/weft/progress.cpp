@@ -1,0 +1,62 @@
+#include "apps/weft/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+
+namespace weft {
+
+namespace {
+
+constexpr int kBarWidth = 30;
+constexpr std::chrono::milliseconds kBarInterval{50};
+constexpr std::chrono::milliseconds kLineInterval{5000};
+constexpr const char* kClearLine = "\r\033[K";
+
+std::string duration_text(double seconds) {
+    if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long>(std::lround(seconds));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, int total, bool quiet)
+    : what_(std::move(what)), total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+    if (drawn_) std::cerr << kClearLine << std::flush;
+}
+
+std::string Progress::time_left(int done, Clock::time_point now) const {
+    if (done == 0) return "";
+    const std::chrono::duration<double> elapsed = now - start_;
+    return duration_text(elapsed.count() / done * (total_ - done)) + " left";
+}
+
+void Progress::show(int done) {
+    const Clock::time_point now = Clock::now();
+    if (quiet_ || now - last_ < (terminal_ ? kBarInterval : kLineInterval)) return;
+    last_ = now;
+    const std::string left = time_left(done, now);
+    if (terminal_) {
+        draw_bar(done, left);
+        drawn_ = true;
+    } else {
+        std::cerr << fmt::format("weft: {} {} of {}, {}", what_, done, total_, left) << std::endl;
+    }
+}
+
+void Progress::draw_bar(int done, const std::string& left) const {
+    const int filled = static_cast<int>(static_cast<long>(kBarWidth) * done / total_);
+    std::cerr << kClearLine
+              << fmt::format("{} {}/{} [{:=<{}}{: <{}}] {}", what_, done, total_, "", filled, "",
+                             kBarWidth - filled, left)
+              << std::flush;
+}
+
+}  // namespace weft

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/weft/commands.h"
+#include "apps/weft/scene_run.h"
+#include "runtime/error.h"
+
+namespace weft {
+
+namespace {
+
+void run_scene(const RunOptions& options) {
+    if (options.resume) {
+        throw UserError("--resume: not in this version of weft; --force starts the run anew");
+    }
+    SceneRun run(options);
+    const InterruptNotice notice;
+    run.advance_all(notice);
+    const RunSummary summary = run.finish();
+    if (options.json) std::cout << to_json(summary).dump(2) << std::endl;
+    else std::cout << to_text(summary) << std::flush;
+    if (summary.finished) return;
+    throw Interrupted(notice.signal(),
+                      fmt::format("stopped by {} after {} of {} frames; they are in {}",
+                                  signal_name(notice.signal()), run.frames_done(),
+                                  run.frame_count(), run.folder().path().string()));
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("run", "Simulate a scene");
+    const auto options = std::make_shared<RunOptions>();
+    add_run_options(*command, *options);
+    command->footer(
+        "Writes trace.h5, frames.vtkhdf, frames.xdmf and summary.json into the output folder\n"
+        "(docs/trace-format.md), and prints the summary.\n\n"
+        "Exit codes: 0 done; 1 the run failed, everything before is on disk; 2 the request was\n"
+        "wrong; 128 + signal: stopped by SIGINT, SIGTERM or SIGHUP after a whole frame.\n\n"
+        "Examples:\n"
+        "  weft run scenes/tablecloth.toml\n"
+        "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out out/big\n"
+        "  weft run scenes/skirt.toml --frames 5 --no-geometry --json --quiet");
+    command->callback([options] { run_scene(*options); });
+}
+
+}  // namespace weft

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/weft/cli_support.h"
+#include "apps/weft/interrupt.h"
+#include "apps/weft/output_folder.h"
+#include "runtime/trace/trace_writer.h"
+#include "simulation/output/geometry_writer.h"
+#include "simulation/output/summary.h"
+#include "simulation/simulation.h"
+
+namespace weft {
+
+/// One `weft run`: a scene, its devices, and everything that it leaves in its output folder.
+class SceneRun {
+public:
+    /// Sets everything up, and claims the output folder. Throws UserError, RunError.
+    explicit SceneRun(const RunOptions& options);
+
+    /// Simulates to the end, or to the frame in which a signal came. Throws RunError; every frame
+    /// before is on disk then.
+    void advance_all(const InterruptNotice& notice);
+    /// Closes all files, and writes the summary. The frames that are not done make it unfinished.
+    RunSummary finish();
+
+    int frames_done() const { return simulation_.frame(); }
+    int frame_count() const { return simulation_.model().scene.frames; }
+    const OutputFolder& folder() const { return folder_; }
+
+private:
+    void say_what_runs() const;
+    void open_geometry();
+    void append_geometry();
+
+    RunOptions options_;
+    Scene scene_;
+    OutputFolder folder_;
+    Warnings warnings_;
+    Simulation simulation_;
+    RunDescription description_;
+    SummaryBuilder summary_;
+    std::optional<TraceWriter> trace_;
+    std::optional<GeometryWriter> geometry_;
+};
+
+}  // namespace weft

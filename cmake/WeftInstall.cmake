@@ -1,0 +1,23 @@
+# `cmake --install` and find_package(weft): the libraries (installed by weft_library), the program,
+# and the package files. tests/install/ tries all of it from outside the tree.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
+
+install(TARGETS weft_options weft_warnings EXPORT weftTargets COMPONENT development)
+set_target_properties(weft_options PROPERTIES EXPORT_NAME options)
+set_target_properties(weft_warnings PROPERTIES EXPORT_NAME warnings)
+if(TARGET weft)
+  install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+endif()
+install(EXPORT weftTargets NAMESPACE weft:: DESTINATION ${package_dir} COMPONENT development)
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/weftConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/weftConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/weftConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/weftConfig.cmake ${PROJECT_BINARY_DIR}/weftConfigVersion.cmake
+        DESTINATION ${package_dir} COMPONENT development)

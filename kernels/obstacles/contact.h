@@ -1,0 +1,91 @@
+#ifndef WEFT_KERNELS_OBSTACLES_CONTACT_H
+#define WEFT_KERNELS_OBSTACLES_CONTACT_H
+
+// What all obstacle shapes share. A shape supplies one function, the signed distance of a point and
+// the normal there, in its own frame; WEFT_OBSTACLE_KERNELS makes its two kernels of it.
+
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+WEFT_KERNELS_BEGIN
+
+/// Where a point is, seen from a surface.
+typedef struct {
+    real distance;  ///< [m], negative inside
+    real3 normal;   ///< of length 1, outwards
+} nearness;
+
+/// float4 per obstacle and substep:
+///   0..2  rows (r, t) of the map from the world at the substep's end to the local frame
+///   3..5  rows of the map from the local frame to the world at the substep's start
+///   6     dimensions [m], as the shape reads them
+///   7     thickness [m], friction coefficient, 0, 0
+#define WEFT_OBSTACLE_ROWS 8
+
+/// rows . (p, 1)
+WEFT_INLINE real3 apply(WEFT_GLOBAL const float4* rows, real3 p) {
+    return make3(p.x * rows[0].x + p.y * rows[0].y + p.z * rows[0].z + splat(rows[0].w),
+                 p.x * rows[1].x + p.y * rows[1].y + p.z * rows[1].z + splat(rows[1].w),
+                 p.x * rows[2].x + p.y * rows[2].y + p.z * rows[2].z + splat(rows[2].w));
+}
+
+/// The transposed rotation of `rows`: a direction back into the world.
+WEFT_INLINE real3 apply_back(WEFT_GLOBAL const float4* rows, real3 d) {
+    return make3(d.x * rows[0].x + d.y * rows[1].x + d.z * rows[2].x,
+                 d.x * rows[0].y + d.y * rows[1].y + d.z * rows[2].y,
+                 d.x * rows[0].z + d.y * rows[1].z + d.z * rows[2].z);
+}
+
+/// How far a vertex has to be pushed: to the thickness, and never a held one.
+WEFT_INLINE real push_depth(WEFT_GLOBAL const float4* obstacle, real distance, real inverse_mass) {
+    const real depth = splat(obstacle[7].x) - distance;
+    const real touching = depth > splat(0.0f) ? depth : splat(0.0f);
+    return inverse_mass > splat(0.0f) ? touching : splat(0.0f);
+}
+
+/// Coulomb friction on positions (Macklin et al. 2014, section 6.1): takes back the tangential part
+/// of the vertex's way along the surface, by friction * depth at the most. The obstacle's own motion
+/// counts: the point of the obstacle where the vertex is now, was at S . (W . x) before.
+WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed, real3 previous,
+                                real3 normal, real depth) {
+    const real3 carried = apply(obstacle + 3, apply(obstacle, pushed));
+    const real3 way = subtract(carried, previous);
+    const real3 tangent = add_scaled(way, normal, -dot3(way, normal));
+    const real grip = smaller(depth * obstacle[7].y / divisor(length3(tangent)), splat(1.0f));
+    return scale(tangent, -grip);
+}
+
+/// push_out_of_<shape> moves vertices out of one obstacle; rub_on_<shape> does it with friction.
+/// positions   [vertices] xyz [m], w = 1/mass [1/kg]; read and written
+/// previous    [vertices] xyz at the substep's start [m]
+/// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
+/// obstacle    which one
+#define WEFT_OBSTACLE_KERNELS(shape, nearness_of)                                                   \
+    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                                 \
+                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,              \
+                int substep) {                                                                      \
+        WEFT_GLOBAL const float4* o =                                                               \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                 \
+        const real4 x = load4(positions, i);                                                        \
+        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                  \
+        const real depth = push_depth(o, near.distance, x.w);                                       \
+        store4(positions, i, with_w(add_scaled(xyz(x), apply_back(o, near.normal), depth), x.w));   \
+    }                                                                                               \
+                                                                                                    \
+    WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous,  \
+                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,              \
+                int substep) {                                                                      \
+        WEFT_GLOBAL const float4* o =                                                               \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                 \
+        const real4 x = load4(positions, i);                                                        \
+        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                  \
+        const real depth = push_depth(o, near.distance, x.w);                                       \
+        const real3 normal = apply_back(o, near.normal);                                            \
+        const real3 pushed = add_scaled(xyz(x), normal, depth);                                     \
+        const real3 slid = friction_step(o, pushed, xyz(load4(previous, i)), normal, depth);        \
+        store4(positions, i, with_w(add(pushed, slid), x.w));                                       \
+    }
+
+WEFT_KERNELS_END
+
+#endif

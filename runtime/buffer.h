@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <span>
+#include <string>
+#include <type_traits>
+
+#include "kernels/platform.h"
+#include "kernels/registry.h"
+
+namespace weft {
+
+/// The host's copy of a buffer: its home. Page-aligned, zeroed, and padded so that devices which
+/// share the host's memory can use it in place. Device copies belong to the devices.
+class BufferStorage {
+public:
+    BufferStorage(std::string name, std::size_t count, std::size_t element_size);
+    ~BufferStorage();
+    BufferStorage(const BufferStorage&) = delete;
+    BufferStorage& operator=(const BufferStorage&) = delete;
+
+    const std::string& name() const { return name_; }
+    std::size_t count() const { return count_; }
+    std::size_t element_size() const { return element_size_; }
+    std::size_t bytes() const { return count_ * element_size_; }
+    void* host() { return host_; }
+    const void* host() const { return host_; }
+
+private:
+    std::string name_;
+    std::size_t count_;
+    std::size_t element_size_;
+    void* host_;
+};
+
+/// A typed array: the only way data reaches a kernel. T is float, int or float4.
+///
+/// The host may read and write data() between frames only; while an executor runs, the devices own
+/// it. Buffers must outlive the executors that used them.
+template <class T>
+class Buffer : public BufferStorage {
+    static_assert(std::is_same_v<T, float> || std::is_same_v<T, int> || std::is_same_v<T, float4>);
+
+public:
+    Buffer(std::string name, std::size_t count) : BufferStorage(std::move(name), count, sizeof(T)) {}
+
+    T* data() { return static_cast<T*>(host()); }
+    const T* data() const { return static_cast<const T*>(host()); }
+    T& operator[](std::size_t i) { return data()[i]; }
+    const T& operator[](std::size_t i) const { return data()[i]; }
+    std::span<T> span() { return {data(), count()}; }
+    std::span<const T> span() const { return {data(), count()}; }
+};
+
+}  // namespace weft

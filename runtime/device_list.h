@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/device.h"
+
+namespace weft {
+
+/// How devices are opened.
+struct DeviceOptions {
+    bool strict_math = true;
+    /// Instead of what the device says of itself; for tests and odd drivers.
+    std::optional<MemoryModel> memory;
+    /// Lanes per kernel call on OpenCL devices, and on the CPU (1 or 8); 0 = what suits the device.
+    int opencl_lanes = 0;
+    int cpu_lanes = 0;
+    /// Launch per colour (as on GPUs) instead of per strip on OpenCL devices.
+    std::optional<bool> per_colour;
+};
+
+/// Opens the devices that a list such as "cpu/1+opencl:0/1" names, in its order:
+///   cpu, cpu/N            TBB on all free cores, or on N
+///   opencl                the first GPU, or else the first OpenCL device
+///   opencl:I, opencl:I/N  device I of `weft devices`, whole or limited to N compute units
+///   hybrid                the CPU and the best OpenCL device; the CPU alone where there is none
+/// OpenCL devices that are the CPU itself and the TBB devices get cores of their own. Throws UserError
+/// for a list that cannot be had. OpenCL is not touched unless the list asks for it.
+std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
+                                                  const DeviceOptions& options = {});
+
+/// Every single device of this machine as list elements: "cpu", "opencl:0", ...
+std::vector<std::string> available_devices();
+
+/// The list that "hybrid" stands for on this machine.
+std::string hybrid_devices();
+
+}  // namespace weft

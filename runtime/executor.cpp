@@ -1,0 +1,201 @@
+#include "runtime/executor.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "runtime/clock.h"
+
+namespace weft {
+
+/// The submission of one run.
+class Executor::Run {
+public:
+    Run(Executor& executor, const Step& step, const scheduler::Plan& plan)
+        : executor_(executor), step_(step), plan_(plan), order_(step.tasks().size()), hop_count_(executor.devices_.size(), 0) {
+        // By planned start. Tasks are numbered in an order that respects the dependencies, so ties do.
+        std::iota(order_.begin(), order_.end(), 0);
+        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
+            return placement(a).start < placement(b).start;
+        });
+        previous_.resize(order_.size(), nullptr);
+        current_.resize(order_.size(), nullptr);
+        group(step.dependencies(), within_);
+        group(step.carried(), carried_);
+    }
+
+    void submit(int instance) {
+        std::swap(previous_, current_);
+        for (const int task : order_) submit(instance, task);
+    }
+
+    /// The copies, with the times that the streams measured. [device][hop]
+    std::vector<CopyRecord> copies(const std::vector<std::vector<TimeSpan>>& times) const {
+        std::vector<CopyRecord> records;
+        for (const Copy& copy : copies_) {
+            const auto time = [&](const std::pair<int, std::size_t>& hop) {
+                return times[static_cast<std::size_t>(hop.first)][hop.second];
+            };
+            CopyRecord& record = records.emplace_back(copy.record);
+            record.start = time(copy.hops.front()).start;
+            record.end = time(copy.hops.back()).end;
+        }
+        return records;
+    }
+
+private:
+    struct Copy {
+        CopyRecord record;
+        std::vector<std::pair<int, std::size_t>> hops;  ///< device, number of the copy there
+    };
+
+    const scheduler::Placement& placement(int task) const {
+        return plan_.placements[static_cast<std::size_t>(task)];
+    }
+    int device_of(int task) const { return static_cast<int>(placement(task).processor); }
+    /// The memory that a device works in: the host's (0), or its own.
+    int memory_of(int device) const {
+        const auto model = executor_.devices_[static_cast<std::size_t>(device)]->info().memory;
+        return model == MemoryModel::kHost ? 0 : device + 1;
+    }
+    DeviceStream& stream(int device) { return *executor_.streams_[static_cast<std::size_t>(device)]; }
+
+    void group(const std::vector<Dependency>& dependencies, std::vector<std::vector<int>>& by_task) {
+        by_task.resize(order_.size());
+        for (const Dependency& d : dependencies) {
+            if (device_of(d.from) == device_of(d.to)) continue;  // the streams are in order
+            by_task[static_cast<std::size_t>(d.to)].push_back(d.from);
+        }
+    }
+
+    void submit(int instance, int number) {
+        const Task& task = step_.tasks()[static_cast<std::size_t>(number)];
+        const int device = device_of(number);
+        waits_.clear();
+        for (const int from : within_[static_cast<std::size_t>(number)]) add_wait(current_, from);
+        for (const int from : carried_[static_cast<std::size_t>(number)]) add_wait(previous_, from);
+        if (!executor_.one_memory_) bring_all(task, device, instance, number);
+
+        Completion* done = stream(device).submit({&task, number, instance, waits_});
+        current_[static_cast<std::size_t>(number)] = done;
+        if (executor_.one_memory_) return;
+        for (const Access& access : task.accesses) {
+            if (access.writes) executor_.memory_.written(access, memory_of(device), done);
+        }
+    }
+
+    void add_wait(const std::vector<Completion*>& completions, int task) {
+        if (Completion* wait = completions[static_cast<std::size_t>(task)]) waits_.push_back(wait);
+    }
+
+    void bring_all(const Task& task, int device, int instance, int number) {
+        for (const Access& access : task.accesses) bring(access, device, instance, number);
+        for (const Access& access : task.accesses) {
+            for (Completion* c : executor_.memory_.arrivals(access, memory_of(device))) {
+                waits_.push_back(c);
+            }
+        }
+    }
+
+    /// Copies what the device does not have yet, through the host where it must.
+    void bring(const Access& access, int device, int instance, int task) {
+        const int memory = memory_of(device);
+        for (const auto& missing : executor_.memory_.missing(access, memory)) {
+            const ElementSpan span = elements_of(access, missing.interval);
+            const std::uint64_t bytes = (span.end - span.begin) * access.buffer->element_size();
+            Copy copy{{instance, task, missing.source - 1, device, bytes}, {}};
+            Completion* arrival = missing.made_by;
+            if (missing.source != 0) {
+                arrival = move(access, missing.interval, span, missing.source - 1, 0, arrival, copy);
+            } else {
+                copy.record.from = host_device();
+            }
+            if (memory != 0) {
+                arrival = move(access, missing.interval, span, device, memory, arrival, copy);
+            }
+            copies_.push_back(std::move(copy));
+        }
+    }
+
+    /// One hop between the host's memory and that of `owner`, to `memory`.
+    Completion* move(const Access& access, Interval interval, const ElementSpan& span,
+                     int owner, int memory, Completion* after, Copy& copy) {
+        const std::vector<Completion*> waits(after == nullptr ? 0 : 1, after);
+        DeviceStream& s = stream(owner);
+        Completion* arrival = memory == 0 ? s.to_host(*access.buffer, span, waits)
+                                          : s.to_device(*access.buffer, span, waits);
+        executor_.memory_.arrived(access, interval, memory, arrival);
+        copy.hops.emplace_back(owner, hop_count_[static_cast<std::size_t>(owner)]++);
+        return arrival;
+    }
+
+    /// The device that works in the host's memory.
+    int host_device() const {
+        int device = 0;
+        while (memory_of(device) != 0) ++device;
+        return device;
+    }
+
+    Executor& executor_;
+    const Step& step_;
+    const scheduler::Plan& plan_;
+    std::vector<int> order_;
+    std::vector<std::vector<int>> within_, carried_;     ///< [task] tasks on other devices to wait for
+    std::vector<Completion*> previous_, current_;        ///< [task] of the last and of this instance
+    std::vector<Completion*> waits_;
+    std::vector<Copy> copies_;
+    std::vector<std::size_t> hop_count_;  ///< [device]
+};
+
+Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies)
+    : devices_(std::move(devices)), epoch_(now()) {
+    for (Device* device : devices_) {
+        streams_.push_back(device->open_stream(bodies));
+        one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
+    }
+}
+
+Executor::~Executor() = default;
+
+double Executor::clock() const { return now() - epoch_; }
+
+RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instances,
+                       int first_instance) {
+    for (const auto& stream : streams_) stream->begin(epoch_);
+    memory_.settle();
+
+    RunTimes times;
+    times.start = clock();
+    Run run(*this, step, plan);
+    for (int i = 0; i < instances; ++i) {
+        run.submit(first_instance + i);
+        for (const auto& stream : streams_) stream->flush();
+    }
+    std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
+    for (std::size_t d = 0; d < streams_.size(); ++d) {
+        streams_[d]->finish(times.tasks.emplace_back(), copy_times[d]);
+    }
+    times.end = clock();
+    times.copies = run.copies(copy_times);
+    return times;
+}
+
+void Executor::host_wrote(BufferStorage& buffer) {
+    memory_.forget(buffer);
+    const ElementSpan whole{0, buffer.count()};
+    for (std::size_t d = 0; d < devices_.size(); ++d) {
+        if (devices_[d]->info().memory == MemoryModel::kHost) continue;
+        streams_[d]->to_device(buffer, whole, {})->wait();
+    }
+}
+
+void Executor::fetch(BufferStorage& buffer) {
+    memory_.settle();
+    for (const auto& [access, missing] : memory_.missing_at_host(buffer)) {
+        DeviceStream& source = *streams_[static_cast<std::size_t>(missing.source - 1)];
+        Completion* arrival = source.to_host(buffer, elements_of(access, missing.interval), {});
+        arrival->wait();
+        memory_.arrived(access, missing.interval, 0, nullptr);
+    }
+}
+
+}  // namespace weft

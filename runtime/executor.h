@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "runtime/device.h"
+#include "runtime/memory_map.h"
+#include "scheduler/plan.h"
+
+namespace weft {
+
+/// One copy between two memories, made for the task that reads the data.
+struct CopyRecord {
+    int instance = 0;
+    int task = 0;
+    int from = 0;  ///< devices
+    int to = 0;
+    std::uint64_t bytes = 0;
+    double start = 0.0;
+    double end = 0.0;
+};
+
+/// What one run of a plan did; times in seconds of the executor's clock.
+struct RunTimes {
+    double start = 0.0;
+    double end = 0.0;
+    std::vector<std::vector<TaskTime>> tasks;  ///< [device]
+    std::vector<CopyRecord> copies;
+};
+
+/// Runs plans: every device works through its part of the tasks, in the plan's order, as soon as what
+/// they depend on is done. Nothing spins. Everything is submitted ahead, so that devices wait for each
+/// other only, never for the host.
+class Executor {
+public:
+    /// bodies  all that steps may use. Devices, bodies and their buffers must outlive the executor.
+    Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies);
+    ~Executor();
+
+    /// Runs the step `instances` times in a row by one plan (processors are the devices, in order) and
+    /// waits for the end. Instances are numbered from first_instance. Throws RunError when a device
+    /// fails.
+    RunTimes run(const Step& step, const scheduler::Plan& plan, int instances,
+                 int first_instance = 0);
+
+    /// To be called after the host has written into a buffer that devices have.
+    void host_wrote(BufferStorage& buffer);
+    /// Makes the host's copy of a buffer current, for data that steps wrote.
+    void fetch(BufferStorage& buffer);
+
+    /// Seconds since the executor was made.
+    double clock() const;
+
+private:
+    class Run;
+
+    std::vector<Device*> devices_;
+    std::vector<std::unique_ptr<DeviceStream>> streams_;
+    MemoryMap memory_;
+    bool one_memory_ = true;  ///< all devices work in the host's: nothing to copy, nothing to track
+    double epoch_;
+};
+
+}  // namespace weft

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/buffer.h"
+
+namespace weft {
+
+/// Where a kernel's items lie: for each strip, one segment per colour. Strips are independent of each
+/// other; the segments of one strip run in the order of their colours.
+///
+/// Segment first + strip * colour_count + colour holds the items [begin[segment], begin[segment + 1]):
+/// the items of a strip are contiguous, and so are those of a range of strips. (With the segments of one
+/// colour side by side instead, a strip's sweep would begin a new stream of memory at every segment.)
+struct Segments {
+    Buffer<int>* begin = nullptr;  ///< [first + strip_count * colour_count + 1], or more
+    int first = 0;                 ///< where this table starts within `begin`
+    int colour_count = 1;
+    int strip_count = 0;
+
+    /// The first item of a strip's colour; colour_count: where the strip ends.
+    int item(int strip, int colour = 0) const {
+        return (*begin)[static_cast<std::size_t>(first + strip * colour_count + colour)];
+    }
+    /// Items of all colours in strips [first_strip, end_strip).
+    int item_count(int first_strip, int end_strip) const {
+        return item(end_strip) - item(first_strip);
+    }
+    /// The most items of one colour in one of these strips.
+    int largest(int colour, int first_strip, int end_strip) const;
+};
+
+/// Stands for an int parameter that takes the number of the running instance of the step: within a
+/// frame, the number of the substep.
+struct Instance {};
+inline constexpr Instance kInstance{};
+
+/// The value of one parameter of a kernel.
+struct Argument {
+    BufferStorage* buffer = nullptr;  ///< for pointer parameters
+    bool is_instance = false;         ///< for int parameters: filled in at run time
+    float real = 0.0f;
+    int integer = 0;
+};
+
+/// One kernel with all its arguments, ready to run over the items of any range of strips.
+struct Launch {
+    const kernels::KernelInfo* kernel = nullptr;
+    std::vector<Argument> arguments;
+    Segments segments;
+};
+
+/// Launches that run one after the other on each strip: what a task does. Tasks of one kind share it.
+struct TaskBody {
+    std::string name;  ///< of the kind, for traces
+    int kind = 0;      ///< what the cost model tells apart
+    std::vector<Launch> launches;
+
+    /// What the cost model counts: items of all launches in strips [first_strip, end_strip).
+    long item_count(int first_strip, int end_strip) const;
+};
+
+namespace detail {
+
+template <class Parameter, class Value>
+Argument make_argument(Value& value) {
+    using V = std::remove_const_t<Value>;
+    Argument argument;
+    if constexpr (std::is_pointer_v<Parameter>) {
+        using Element = std::remove_const_t<std::remove_pointer_t<Parameter>>;
+        static_assert(std::is_same_v<V, Buffer<Element>>, "this parameter takes a Buffer of its type");
+        argument.buffer = &value;
+    } else if constexpr (std::is_same_v<V, Instance>) {
+        static_assert(std::is_same_v<Parameter, int>, "the instance is an int");
+        argument.is_instance = true;
+    } else {
+        static_assert(std::is_same_v<V, Parameter>, "float for float, int for int");
+        if constexpr (std::is_same_v<Parameter, float>) argument.real = value;
+        else argument.integer = value;
+    }
+    return argument;
+}
+
+template <class Parameters, class... Values, std::size_t... I>
+std::vector<Argument> make_arguments(std::index_sequence<I...>, Values&... values) {
+    return {make_argument<std::tuple_element_t<I, Parameters>>(values)...};
+}
+
+}  // namespace detail
+
+/// Binds a kernel's arguments: launch(kernels::project_springs, segments, positions, ends, ...).
+/// A missing argument, or a buffer of another type than the kernel's parameter, does not compile.
+template <class Kernel, class... Values>
+Launch launch(Kernel, const Segments& segments, Values&&... values) {
+    using Parameters = kernels::ParametersOf<Kernel>;
+    static_assert(std::tuple_size_v<Parameters> == sizeof...(Values),
+                  "one argument per parameter of the kernel");
+    return {&kernels::kernel_info(Kernel::kName),
+            detail::make_arguments<Parameters>(std::index_sequence_for<Values...>(), values...),
+            segments};
+}
+
+}  // namespace weft

@@ -1,0 +1,113 @@
+#include "runtime/memory_map.h"
+
+#include <algorithm>
+
+namespace weft {
+
+MemoryMap::Key MemoryMap::key_of(const Access& access) {
+    return {access.buffer, access.segments == nullptr ? -1 : access.segments->first};
+}
+
+void MemoryMap::cut(std::vector<Part>& parts, Interval interval) {
+    for (const int at : {interval.begin, interval.end}) {
+        const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) {
+            return p.interval.begin < at && at < p.interval.end;
+        });
+        if (part == parts.end()) continue;
+        Part upper = *part;
+        upper.interval.begin = at;
+        part->interval.end = at;
+        parts.insert(part + 1, std::move(upper));
+    }
+}
+
+std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, int memory) const {
+    std::vector<Missing> result;
+    const auto entry = entries_.find(key_of(access));
+    if (entry == entries_.end()) return result;
+    for (const Part& part : entry->second.parts) {
+        const Interval common{std::max(part.interval.begin, access.begin),
+                              std::min(part.interval.end, access.end)};
+        if (common.begin >= common.end) continue;
+        const auto here = std::find_if(part.holders.begin(), part.holders.end(),
+                                       [&](const Holder& holder) { return holder.memory == memory; });
+        if (here != part.holders.end()) continue;
+        // The host first: it is one copy away, other devices are two.
+        const auto source = std::min_element(
+            part.holders.begin(), part.holders.end(),
+            [](const Holder& a, const Holder& b) { return a.memory < b.memory; });
+        result.push_back({common, source->memory, source->since});
+    }
+    return result;
+}
+
+std::vector<Completion*> MemoryMap::arrivals(const Access& access, int memory) const {
+    std::vector<Completion*> result;
+    const auto entry = entries_.find(key_of(access));
+    if (entry == entries_.end()) return result;
+    for (const Part& part : entry->second.parts) {
+        if (part.interval.end <= access.begin || access.end <= part.interval.begin) continue;
+        for (const Holder& holder : part.holders) {
+            if (holder.memory != memory || !holder.copied || holder.since == nullptr) continue;
+            if (result.empty() || result.back() != holder.since) result.push_back(holder.since);
+        }
+    }
+    return result;
+}
+
+void MemoryMap::arrived(const Access& access, Interval interval, int memory, Completion* arrival) {
+    std::vector<Part>& parts = entries_[key_of(access)].parts;
+    cut(parts, interval);
+    for (Part& part : parts) {
+        if (part.interval.begin >= interval.begin && part.interval.end <= interval.end) {
+            part.holders.push_back({memory, arrival, true});
+        }
+    }
+}
+
+void MemoryMap::written(const Access& access, int memory, Completion* task) {
+    Entry& entry = entries_[key_of(access)];
+    entry.segments = access.segments;
+    const Interval interval{access.begin, access.end};
+    cut(entry.parts, interval);
+    std::erase_if(entry.parts, [&](const Part& part) {
+        return part.interval.begin >= interval.begin && part.interval.end <= interval.end;
+    });
+    const auto behind = std::find_if(entry.parts.begin(), entry.parts.end(), [&](const Part& part) {
+        return part.interval.begin >= interval.end;
+    });
+    entry.parts.insert(behind, {interval, {{memory, task, false}}});
+}
+
+void MemoryMap::forget(const BufferStorage& buffer) {
+    std::erase_if(entries_, [&](const auto& entry) { return entry.first.first == &buffer; });
+}
+
+void MemoryMap::settle() {
+    for (auto& [key, entry] : entries_) {
+        for (Part& part : entry.parts) {
+            for (Holder& holder : part.holders) holder.since = nullptr;
+        }
+    }
+}
+
+std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
+    const BufferStorage& buffer) const {
+    std::vector<std::pair<Access, Missing>> result;
+    for (const auto& [key, entry] : entries_) {
+        if (key.first != &buffer) continue;
+        for (const Part& part : entry.parts) {
+            const Access access{key.first, entry.segments, part.interval.begin, part.interval.end};
+            for (const Missing& missing : this->missing(access, 0)) result.emplace_back(access, missing);
+        }
+    }
+    return result;
+}
+
+ElementSpan elements_of(const Access& access, Interval interval) {
+    const Segments* s = access.segments;
+    return {static_cast<std::size_t>(s == nullptr ? interval.begin : s->item(interval.begin)),
+            static_cast<std::size_t>(s == nullptr ? interval.end : s->item(interval.end))};
+}
+
+}  // namespace weft

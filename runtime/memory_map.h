@@ -1,0 +1,71 @@
+#pragma once
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "runtime/device.h"
+#include "runtime/step.h"
+
+namespace weft {
+
+/// A stretch of a buffer in the units of its accesses.
+struct Interval {
+    int begin = 0;
+    int end = 0;
+};
+
+/// Which of the memories holds the current data of which part of which buffer (as caches do: modified,
+/// shared, invalid). Memory 0 is the host's. What is not noted is current everywhere.
+class MemoryMap {
+public:
+    /// A part that has to be copied, and the work that made its data.
+    struct Missing {
+        Interval interval;
+        int source = 0;             ///< memory
+        Completion* made_by = nullptr;  ///< null: long done
+    };
+
+    /// What of an access is not current in `memory`. Both reads and updates read.
+    std::vector<Missing> missing(const Access& access, int memory) const;
+    /// Copies into `memory`, perhaps still under way, that brought parts of the access.
+    std::vector<Completion*> arrivals(const Access& access, int memory) const;
+    /// The data of the missing part are in `memory` as well once `arrival` is done.
+    void arrived(const Access& access, Interval interval, int memory, Completion* arrival);
+    /// A task on `memory` writes this: it is current there alone.
+    void written(const Access& access, int memory, Completion* task);
+    /// The buffer is current everywhere again.
+    void forget(const BufferStorage& buffer);
+    /// Forgets completions: everything that was under way is done.
+    void settle();
+
+    /// Every part of the buffer that is not current in the host's memory, as accesses.
+    std::vector<std::pair<Access, Missing>> missing_at_host(const BufferStorage& buffer) const;
+
+private:
+    struct Holder {
+        int memory = 0;
+        Completion* since = nullptr;  ///< null: long ago
+        bool copied = false;          ///< brought there, not made there
+    };
+    struct Part {
+        Interval interval;
+        std::vector<Holder> holders;  ///< where it is current
+    };
+    using Key = std::pair<BufferStorage*, int>;  ///< buffer and the start of its segments, or -1
+    struct Entry {
+        const Segments* segments = nullptr;
+        std::vector<Part> parts;  ///< disjoint, ascending
+    };
+
+    static Key key_of(const Access& access);
+    /// Cuts parts at the ends of the interval, so that it is made of whole parts.
+    static void cut(std::vector<Part>& parts, Interval interval);
+
+    std::map<Key, Entry> entries_;
+};
+
+/// The elements of a part of an access, for copying.
+ElementSpan elements_of(const Access& access, Interval interval);
+
+}  // namespace weft

@@ -1,0 +1,43 @@
+#include "runtime/opencl/completion.h"
+
+namespace weft {
+
+namespace {
+
+void CL_CALLBACK run_callback(cl_event, cl_int, void* data) {
+    const std::unique_ptr<std::function<void()>> callback(static_cast<std::function<void()>*>(data));
+    (*callback)();
+}
+
+}  // namespace
+
+void OpenClCompletion::wait() {
+    try {
+        event_.wait();
+    } catch (const cl::Error&) {
+        // The command failed; whoever owns its stream reports that when it finishes.
+    }
+}
+
+void OpenClCompletion::when_done(std::function<void()> callback) {
+    auto data = std::make_unique<std::function<void()>>(std::move(callback));
+    event_.setCallback(CL_COMPLETE, run_callback, data.get());
+    static_cast<void>(data.release());  // run_callback owns it now
+}
+
+std::vector<cl::Event> events_for(const cl::Context& context, std::span<Completion* const> waits) {
+    std::vector<cl::Event> events;
+    for (Completion* wait : waits) {
+        if (auto* own = dynamic_cast<OpenClCompletion*>(wait);
+            own != nullptr && own->event().getInfo<CL_EVENT_CONTEXT>() == context) {
+            events.push_back(own->event());
+            continue;
+        }
+        cl::UserEvent passed_on(context);
+        wait->when_done([passed_on]() mutable { passed_on.setStatus(CL_COMPLETE); });
+        events.push_back(passed_on);
+    }
+    return events;
+}
+
+}  // namespace weft

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "runtime/device.h"
+#include "runtime/opencl/api.h"
+
+namespace weft {
+
+/// The completion of a command.
+class OpenClCompletion final : public Completion {
+public:
+    explicit OpenClCompletion(cl::Event event) : event_(std::move(event)) {}
+
+    void wait() override;
+    void when_done(std::function<void()> callback) override;
+    const cl::Event& event() const { return event_; }
+
+private:
+    cl::Event event_;
+};
+
+/// An event of `context` that is done when all of `waits` are. Those of the same context are used as
+/// they are; others, and the host's, are passed on through user events.
+std::vector<cl::Event> events_for(const cl::Context& context, std::span<Completion* const> waits);
+
+}  // namespace weft

@@ -1,0 +1,143 @@
+#include "runtime/opencl/opencl_device.h"
+
+#include <cstdlib>
+#include <numeric>
+
+#include "runtime/opencl/stream.h"
+
+namespace weft {
+
+namespace {
+
+std::vector<cl::Device> find_devices() {
+    // PoCL's threads stay on one core each, so that a sub-device has cores of its own.
+    ::setenv("POCL_AFFINITY", "1", /*overwrite=*/0);
+    std::vector<cl::Device> devices;
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {};  // the loader reports "no platform" as an error
+    }
+    for (const cl::Platform& platform : platforms) {
+        try {
+            std::vector<cl::Device> found;
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+            devices.insert(devices.end(), found.begin(), found.end());
+        } catch (const cl::Error&) {
+            // A platform without devices.
+        }
+    }
+    return devices;
+}
+
+const std::vector<cl::Device>& all_devices() {
+    static const std::vector<cl::Device> devices = find_devices();
+    return devices;
+}
+
+bool is_type(const cl::Device& device, cl_device_type type) {
+    return (device.getInfo<CL_DEVICE_TYPE>() & type) != 0;
+}
+
+std::string trimmed(std::string text) {
+    while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();
+    return text;
+}
+
+MemoryModel memory_model(const cl::Device& device) {
+    if (is_type(device, CL_DEVICE_TYPE_CPU)) return MemoryModel::kHost;
+    return device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE ? MemoryModel::kMapped
+                                                                     : MemoryModel::kDiscrete;
+}
+
+/// CPU devices need no flag for correct rounding: their instructions round correctly.
+bool rounds_correctly(const cl::Device& device) {
+    return is_type(device, CL_DEVICE_TYPE_CPU) ||
+           (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+}
+
+OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {
+    OpenClTarget target;
+    target.device = device;
+    target.context = cl::Context(device);
+    target.strict = options.strict_math;
+    const bool is_cpu = is_type(device, CL_DEVICE_TYPE_CPU);
+    const bool per_colour = options.per_colour.value_or(!is_cpu);
+    target.style = per_colour ? EntryStyle::kPerColour : EntryStyle::kPerStrip;
+
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    DeviceInfo& info = target.info;
+    info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
+    info.kind = "opencl";
+    info.driver = trimmed(platform.getInfo<CL_PLATFORM_NAME>()) + " " +
+                  trimmed(device.getInfo<CL_DRIVER_VERSION>());
+    info.units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.memory = options.memory.value_or(memory_model(device));
+    info.strict = options.strict_math && rounds_correctly(device);
+    info.lanes = options.opencl_lanes != 0 ? options.opencl_lanes : (is_cpu ? 8 : 1);
+    return target;
+}
+
+class OpenClDevice final : public Device {
+public:
+    explicit OpenClDevice(OpenClTarget target) : target_(std::move(target)) {}
+
+    const DeviceInfo& info() const override { return target_.info; }
+
+    std::unique_ptr<DeviceStream> open_stream(std::span<const TaskBody* const> bodies) override {
+        return std::make_unique<OpenClStream>(target_, bodies);
+    }
+
+private:
+    OpenClTarget target_;
+};
+
+/// Sub-devices in the order of `parts`, from the first unit on.
+std::vector<cl::Device> divide(cl::Device device, const std::vector<int>& parts) {
+    const int units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    const int used = std::accumulate(parts.begin(), parts.end(), 0);
+    if (parts.size() == 1 && used == units) return {device};
+    std::vector<cl_device_partition_property> properties{CL_DEVICE_PARTITION_BY_COUNTS};
+    properties.insert(properties.end(), parts.begin(), parts.end());
+    properties.push_back(CL_DEVICE_PARTITION_BY_COUNTS_LIST_END);
+    properties.push_back(0);
+    std::vector<cl::Device> divided;
+    device.createSubDevices(properties.data(), &divided);
+    return divided;
+}
+
+}  // namespace
+
+std::vector<OpenClDeviceSummary> opencl_devices() {
+    std::vector<OpenClDeviceSummary> list;
+    for (const cl::Device& device : all_devices()) {
+        const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+        list.push_back({trimmed(device.getInfo<CL_DEVICE_NAME>()),
+                        trimmed(platform.getInfo<CL_PLATFORM_NAME>()),
+                        static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
+                        is_type(device, CL_DEVICE_TYPE_CPU), is_type(device, CL_DEVICE_TYPE_GPU)});
+    }
+    return list;
+}
+
+std::vector<std::unique_ptr<Device>> open_opencl_device(int index, const std::vector<int>& parts,
+                                                        const DeviceOptions& options) {
+    const cl::Device& whole = all_devices().at(static_cast<std::size_t>(index));
+    std::vector<std::unique_ptr<Device>> opened;
+    try {
+        const auto devices = parts.empty() ? std::vector<cl::Device>{whole} : divide(whole, parts);
+        for (const cl::Device& device : devices) {
+            opened.push_back(std::make_unique<OpenClDevice>(describe(device, options)));
+        }
+    } catch (const cl::Error& error) {
+        if (error.err() == CL_DEVICE_PARTITION_FAILED || error.err() == CL_INVALID_VALUE) {
+            throw UserError("opencl:" + std::to_string(index) +
+                            " cannot be limited to a part of its compute units; leave out '/N'");
+        }
+        throw opencl_error("opening opencl:" + std::to_string(index), error);
+    }
+    return opened;
+}
+
+}  // namespace weft

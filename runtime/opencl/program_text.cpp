@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "kernels/sources.h"
+#include "runtime/opencl/program.h"
+
+namespace weft {
+
+namespace {
+
+using kernels::Parameter;
+
+/// Puts headers one after the other, each once, each behind those that it includes. #line makes the
+/// compiler's messages name the real file.
+class HeaderText {
+public:
+    void add(std::string_view path) {
+        if (!seen_.emplace(path).second) return;
+        const auto files = kernels::source_files();
+        const auto file = std::find_if(files.begin(), files.end(),
+                                        [&](const auto& f) { return f.path == path; });
+        // Headers of the C++ targets are not embedded, and nothing here needs them.
+        if (file != files.end()) append(*file);
+    }
+    std::string text() const { return out_.str(); }
+
+private:
+    void append(const kernels::SourceFile& file) {
+        std::istringstream lines{std::string(file.text)};
+        std::string line;
+        out_ << "#line 1 \"" << file.path << "\"\n";
+        for (int number = 1; std::getline(lines, line); ++number) {
+            constexpr std::string_view kInclude = "#include \"";
+            if (line.starts_with(kInclude)) {
+                add(line.substr(kInclude.size(), line.size() - kInclude.size() - 1));
+                out_ << "#line " << number + 1 << " \"" << file.path << "\"\n";
+            } else {
+                out_ << line << '\n';
+            }
+        }
+    }
+
+    std::set<std::string, std::less<>> seen_;
+    std::ostringstream out_;
+};
+
+const char* type_name(Parameter parameter) {
+    switch (parameter) {
+        case Parameter::kReadFloat: return "__global const float* ";
+        case Parameter::kReadInt: return "__global const int* ";
+        case Parameter::kReadFloat4: return "__global const float4* ";
+        case Parameter::kWriteFloat: return "__global float* ";
+        case Parameter::kWriteInt: return "__global int* ";
+        case Parameter::kWriteFloat4: return "__global float4* ";
+        case Parameter::kFloat: return "float ";
+        case Parameter::kInt: return "int ";
+    }
+    throw std::logic_error("unknown parameter type");
+}
+
+std::string parameter_name(std::size_t launch, std::size_t parameter) {
+    return "p" + std::to_string(launch) + "_" + std::to_string(parameter);
+}
+
+/// The entry point's parameters for one launch: all but the instance, which is common to all.
+void declare_parameters(std::ostream& out, const Launch& launch, std::size_t number) {
+    for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
+        if (launch.arguments[k].is_instance) continue;
+        out << type_name(launch.kernel->parameters[k]) << parameter_name(number, k) << ", ";
+    }
+}
+
+void call_kernel(std::ostream& out, const Launch& launch, std::size_t number) {
+    out << launch.kernel->name << "(i";
+    for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
+        out << ", " << (launch.arguments[k].is_instance ? "instance" : parameter_name(number, k));
+    }
+    out << ");";
+}
+
+std::string segment_parameters(std::size_t launch) {
+    const std::string l = std::to_string(launch);
+    return "__global const int* segments" + l + ", int first" + l + ", int colours" + l + ", ";
+}
+
+/// Points to the first item of the strip's colour; behind it stands where that colour ends.
+std::string segment_of(std::size_t launch) {
+    const std::string l = std::to_string(launch);
+    return "    __global const int* segment = segments" + l + " + first" + l + " + strip * colours" +
+           l + " + colour;\n";
+}
+
+void per_strip_loop(std::ostream& out, const Launch& launch, std::size_t l) {
+    out << "    for (int colour = 0; colour < colours" << l << "; ++colour) {\n    " << segment_of(l)
+        << "        int begin = segment[0];\n"
+        << "        int end = segment[1];\n"
+        << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
+        << "            item i = {begin, WEFT_LANES};\n            ";
+    call_kernel(out, launch, l);
+    out << "\n        }\n"
+        << "        if (begin < end) {\n"
+        << "            item i = {begin, end - begin};\n            ";
+    call_kernel(out, launch, l);
+    out << "\n        }\n    }\n";
+}
+
+void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number) {
+    out << "__kernel __attribute__((reqd_work_group_size(1, 1, 1)))\n"
+        << "void " << entry_name(number) << "(";
+    for (std::size_t l = 0; l < body.launches.size(); ++l) {
+        declare_parameters(out, body.launches[l], l);
+        out << segment_parameters(l);
+    }
+    out << "int first_strip, int instance) {\n"
+        << "    int strip = first_strip + (int)get_global_id(0);\n";
+    for (std::size_t l = 0; l < body.launches.size(); ++l) {
+        per_strip_loop(out, body.launches[l], l);
+    }
+    out << "}\n\n";
+}
+
+/// Work-items (item, strip); in strips with fewer items than the largest, some have nothing to do.
+void per_colour_entry(std::ostream& out, const Launch& launch, std::size_t body, std::size_t number) {
+    out << "__kernel void " << entry_name(body, number) << "(";
+    declare_parameters(out, launch, number);
+    out << segment_parameters(number) << "int colour, int first_strip, int instance) {\n"
+        << "    int strip = first_strip + (int)get_global_id(1);\n"
+        << segment_of(number)
+        << "    int first = segment[0] + (int)get_global_id(0) * WEFT_LANES;\n"
+        << "    if (first >= segment[1]) return;\n"
+        << "    item i = {first, min(segment[1] - first, WEFT_LANES)};\n    ";
+    call_kernel(out, launch, number);
+    out << "\n}\n\n";
+}
+
+}  // namespace
+
+std::string entry_name(std::size_t body) { return "body_" + std::to_string(body); }
+
+std::string entry_name(std::size_t body, std::size_t launch) {
+    return "launch_" + std::to_string(body) + "_" + std::to_string(launch);
+}
+
+std::string program_text(std::span<const TaskBody* const> bodies, EntryStyle style) {
+    HeaderText headers;
+    std::ostringstream entries;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        for (std::size_t l = 0; l < bodies[b]->launches.size(); ++l) {
+            const Launch& launch = bodies[b]->launches[l];
+            headers.add(launch.kernel->file);
+            if (style == EntryStyle::kPerColour) per_colour_entry(entries, launch, b, l);
+        }
+        if (style == EntryStyle::kPerStrip) per_strip_entry(entries, *bodies[b], b);
+    }
+    return headers.text() + "#line 1 \"entry points\"\n" + entries.str();
+}
+
+}  // namespace weft

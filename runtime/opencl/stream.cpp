@@ -1,0 +1,245 @@
+#include "runtime/opencl/stream.h"
+
+#include <algorithm>
+
+#include "runtime/clock.h"
+
+namespace weft {
+
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+constexpr std::size_t kGroup = 64;  // work-items per group where each has one item
+
+cl::Buffer make_memory(const OpenClTarget& target, BufferStorage& buffer) {
+    const bool in_place = target.info.memory != MemoryModel::kDiscrete;
+    // Whole and padded pages: zero copy asks for them, and no size is 0.
+    const std::size_t bytes = std::max<std::size_t>((buffer.bytes() + 63) / 64 * 64, 64);
+    const cl_mem_flags flags =
+        CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
+    return cl::Buffer(target.context, flags, bytes, buffer.host());
+}
+
+}  // namespace
+
+OpenClStream::OpenClStream(const OpenClTarget& target, std::span<const TaskBody* const> bodies)
+    : target_(target) {
+    try {
+        queue_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
+        copies_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
+        const cl::Program program =
+            build_program(target.context, target.device, program_text(bodies, target.style),
+                          {target.info.lanes, target.strict});
+        for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], b);
+    } catch (const cl::Error& error) {
+        throw opencl_error("preparing " + target_.info.name, error);
+    }
+}
+
+OpenClStream::~OpenClStream() {
+    try {
+        copies_.finish();
+        queue_.finish();
+    } catch (const cl::Error&) {
+        // finish() has reported it, or somebody is unwinding from it.
+    }
+}
+
+const cl::Buffer& OpenClStream::memory_of(BufferStorage& buffer) {
+    const auto known = memory_.find(&buffer);
+    if (known != memory_.end()) return known->second;
+    return memory_.emplace(&buffer, make_memory(target_, buffer)).first->second;
+}
+
+cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch) {
+    for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
+        const Argument& argument = launch.arguments[k];
+        if (argument.is_instance) continue;
+        if (argument.buffer != nullptr) kernel.setArg(index++, memory_of(*argument.buffer));
+        else if (launch.kernel->parameters[k] == kernels::Parameter::kFloat) {
+            kernel.setArg(index++, argument.real);
+        } else {
+            kernel.setArg(index++, argument.integer);
+        }
+    }
+    return index;
+}
+
+cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
+                                            const Segments& segments) {
+    kernel.setArg(index++, memory_of(*segments.begin));
+    kernel.setArg(index++, segments.first);
+    kernel.setArg(index++, segments.colour_count);
+    return index;
+}
+
+void OpenClStream::bind(const cl::Program& program, const TaskBody& body, std::size_t number) {
+    BoundBody bound{&body, {}};
+    const bool per_strip = target_.style == EntryStyle::kPerStrip;
+    for (std::size_t l = 0; l < body.launches.size(); ++l) {
+        const Launch& launch = body.launches[l];
+        if (l == 0 || !per_strip) {
+            const std::string name = per_strip ? entry_name(number) : entry_name(number, l);
+            bound.entries.push_back({cl::Kernel(program, name.c_str())});
+        }
+        Entry& entry = bound.entries.back();
+        entry.dynamic = set_launch_arguments(entry.kernel, entry.dynamic, launch);
+        entry.dynamic = set_segment_arguments(entry.kernel, entry.dynamic, launch.segments);
+    }
+    bodies_.push_back(std::move(bound));
+}
+
+void OpenClStream::begin(double epoch) {
+    running_.clear();
+    copied_.clear();
+    completions_.clear();
+    epoch_ = epoch;
+    first_enqueued_ = 0.0;
+}
+
+Completion* OpenClStream::remember(const cl::Event& event) {
+    return &completions_.emplace_back(event);
+}
+
+Completion* OpenClStream::submit(const Submission& s) {
+    const auto bound = std::find_if(bodies_.begin(), bodies_.end(),
+                                    [&](const BoundBody& b) { return b.body == s.task->body; });
+    try {
+        std::vector<cl::Event> waits = events_for(target_.context, s.waits);
+        Running& running = running_.emplace_back();
+        running.instance = s.instance;
+        running.task = s.number;
+        if (target_.style == EntryStyle::kPerStrip) run_strips(*bound, s, waits, running);
+        else run_colours(*bound, s, waits, running);
+        return remember(running.last);
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name + ", task '" + s.task->body->name + "'", error);
+    }
+}
+
+void OpenClStream::run_strips(const BoundBody& bound, const Submission& s,
+                              std::vector<cl::Event>& waits, Running& running) {
+    const Entry& entry = bound.entries.front();
+    cl::Kernel kernel = entry.kernel;
+    kernel.setArg(entry.dynamic, s.task->first_strip);
+    kernel.setArg(entry.dynamic + 1, s.instance);
+    const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
+    enqueue(entry, cl::NDRange(strips), cl::NDRange(1), waits, running);
+}
+
+void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
+                               std::vector<cl::Event>& waits, Running& running) {
+    const auto lanes = static_cast<std::size_t>(target_.info.lanes);
+    const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
+    for (std::size_t l = 0; l < bound.entries.size(); ++l) {
+        const Entry& entry = bound.entries[l];
+        const Segments& segments = bound.body->launches[l].segments;
+        cl::Kernel kernel = entry.kernel;
+        kernel.setArg(entry.dynamic + 1, s.task->first_strip);
+        kernel.setArg(entry.dynamic + 2, s.instance);
+        for (int colour = 0; colour < segments.colour_count; ++colour) {
+            const int most = segments.largest(colour, s.task->first_strip, s.task->end_strip);
+            if (most == 0) continue;
+            kernel.setArg(entry.dynamic, colour);
+            const std::size_t items = (static_cast<std::size_t>(most) + lanes - 1) / lanes;
+            const cl::NDRange range((items + kGroup - 1) / kGroup * kGroup, strips);
+            enqueue(entry, range, cl::NDRange(kGroup, 1), waits, running);
+            waits.clear();  // the queue is in order: the first command's waits serve for all
+        }
+    }
+    if (running.last() == nullptr) {  // no items at all
+        queue_.enqueueMarkerWithWaitList(&waits, &running.last);
+        running.first = running.last;
+    }
+}
+
+void OpenClStream::enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
+                           std::vector<cl::Event>& waits, Running& running) {
+    if (first_enqueued_ == 0.0) first_enqueued_ = now();
+    queue_.enqueueNDRangeKernel(entry.kernel, cl::NullRange, items, group,
+                                waits.empty() ? nullptr : &waits, &running.last);
+    if (running.first() == nullptr) running.first = running.last;
+}
+
+void OpenClStream::flush() {
+    copies_.flush();
+    queue_.flush();
+}
+
+TimeSpan OpenClStream::time_of(const Commands& commands, double offset) const {
+    const auto start = commands.first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = commands.last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    return {static_cast<double>(start) * kNanosecond + offset,
+            static_cast<double>(end) * kNanosecond + offset};
+}
+
+void OpenClStream::finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) {
+    try {
+        copies_.finish();
+        queue_.finish();
+        if (running_.empty()) return;
+        // Both clocks were read within a microsecond of each other when the first command was
+        // enqueued; so their difference is known anew every frame, and cannot drift.
+        const auto queued = running_.front().first.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+        const double offset = first_enqueued_ - epoch_ - static_cast<double>(queued) * kNanosecond;
+        for (const Running& r : running_) {
+            const TimeSpan time = time_of(r, offset);
+            tasks.push_back({r.instance, r.task, time.start, time.end});
+        }
+        for (const Commands& c : copied_) copies.push_back(time_of(c, offset));
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name, error);
+    }
+}
+
+OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferStorage& buffer,
+                                                  ElementSpan span,
+                                                  const std::vector<cl::Event>& waits) {
+    const cl::Buffer& memory = memory_of(buffer);
+    const std::size_t offset = span.begin * buffer.element_size();
+    const std::size_t bytes = (span.end - span.begin) * buffer.element_size();
+    char* host = static_cast<char*>(buffer.host()) + offset;
+    const bool out = direction == Direction::kToDevice;
+    const auto* wait_list = waits.empty() ? nullptr : &waits;
+    Commands commands;
+    if (target_.info.memory == MemoryModel::kMapped) {
+        void* mapped = copies_.enqueueMapBuffer(memory, CL_FALSE, out ? CL_MAP_WRITE : CL_MAP_READ,
+                                                offset, bytes, wait_list, &commands.first);
+        copies_.enqueueUnmapMemObject(memory, mapped, nullptr, &commands.last);
+        return commands;
+    }
+    if (out) {
+        copies_.enqueueWriteBuffer(memory, CL_FALSE, offset, bytes, host, wait_list,
+                                   &commands.first);
+    } else {
+        copies_.enqueueReadBuffer(memory, CL_FALSE, offset, bytes, host, wait_list,
+                                  &commands.first);
+    }
+    commands.last = commands.first;
+    return commands;
+}
+
+Completion* OpenClStream::copy(Direction direction, BufferStorage& buffer, ElementSpan span,
+                               std::span<Completion* const> waits) {
+    try {
+        copied_.push_back(
+            enqueue_copy(direction, buffer, span, events_for(target_.context, waits)));
+        queue_.flush();  // what the copy waits for must be on its way
+        copies_.flush();
+        return remember(copied_.back().last);
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name + ", copying '" + buffer.name() + "'", error);
+    }
+}
+
+Completion* OpenClStream::to_device(BufferStorage& buffer, ElementSpan span,
+                                    std::span<Completion* const> waits) {
+    return copy(Direction::kToDevice, buffer, span, waits);
+}
+
+Completion* OpenClStream::to_host(BufferStorage& buffer, ElementSpan span,
+                                  std::span<Completion* const> waits) {
+    return copy(Direction::kToHost, buffer, span, waits);
+}
+
+}  // namespace weft

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "runtime/device.h"
+#include "runtime/opencl/completion.h"
+#include "runtime/opencl/program.h"
+
+namespace weft {
+
+/// What a stream needs to know of its device.
+struct OpenClTarget {
+    cl::Context context;
+    cl::Device device;
+    DeviceInfo info;
+    EntryStyle style = EntryStyle::kPerStrip;
+    bool strict = true;
+};
+
+/// An in-order queue for tasks, and one beside it for copies.
+class OpenClStream final : public DeviceStream {
+public:
+    OpenClStream(const OpenClTarget& target, std::span<const TaskBody* const> bodies);
+    ~OpenClStream() override;
+
+    void begin(double epoch) override;
+    Completion* submit(const Submission& submission) override;
+    void flush() override;
+    void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override;
+    Completion* to_device(BufferStorage& buffer, ElementSpan span,
+                          std::span<Completion* const> waits) override;
+    Completion* to_host(BufferStorage& buffer, ElementSpan span,
+                        std::span<Completion* const> waits) override;
+
+private:
+    /// A kernel with its arguments set, but for the last ones: colour, first strip, instance.
+    struct Entry {
+        cl::Kernel kernel;
+        cl_uint dynamic = 0;  ///< index of the first argument that is set per submission
+    };
+    struct BoundBody {
+        const TaskBody* body = nullptr;
+        std::vector<Entry> entries;
+    };
+    /// The first and the last command of something.
+    struct Commands {
+        cl::Event first;
+        cl::Event last;
+    };
+    struct Running : Commands {
+        int instance = 0;
+        int task = 0;
+    };
+    enum class Direction { kToDevice, kToHost };
+
+    const cl::Buffer& memory_of(BufferStorage& buffer);
+    cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
+    cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
+    void bind(const cl::Program& program, const TaskBody& body, std::size_t number);
+    void run_strips(const BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+                    Running& running);
+    void run_colours(const BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+                     Running& running);
+    void enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
+                 std::vector<cl::Event>& waits, Running& running);
+    Completion* copy(Direction direction, BufferStorage& buffer, ElementSpan span,
+                     std::span<Completion* const> waits);
+    Commands enqueue_copy(Direction direction, BufferStorage& buffer, ElementSpan span,
+                          const std::vector<cl::Event>& waits);
+    TimeSpan time_of(const Commands& commands, double offset) const;
+    Completion* remember(const cl::Event& event);
+
+    OpenClTarget target_;
+    cl::CommandQueue queue_;
+    cl::CommandQueue copies_;
+    std::map<const BufferStorage*, cl::Buffer> memory_;
+    std::vector<BoundBody> bodies_;
+    std::deque<OpenClCompletion> completions_;
+    std::deque<Running> running_;
+    std::vector<Commands> copied_;
+    double epoch_ = 0.0;
+    double first_enqueued_ = 0.0;  ///< steady-clock seconds of the frame's first kernel
+};
+
+}  // namespace weft

@@ -1,0 +1,286 @@
+#include "runtime/tbb/cpu_device.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "runtime/clock.h"
+#include "runtime/cores.h"
+#include "runtime/error.h"
+
+namespace weft {
+
+namespace {
+
+/// A launch with its arguments as the range function wants them.
+struct BoundLaunch {
+    kernels::RangeFunction function;
+    Segments segments;
+    std::vector<Argument> values;
+    std::vector<void*> pointers;           ///< storage of pointer parameters
+    std::vector<const void*> arguments;    ///< to the parameters' values
+    std::vector<std::size_t> instance_at;  ///< parameters that take the instance
+
+    BoundLaunch(const Launch& launch, int lanes)
+        : function(lanes == 1 ? launch.kernel->scalar : launch.kernel->packed),
+          segments(launch.segments),
+          values(launch.arguments),
+          pointers(values.size(), nullptr) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (values[i].buffer != nullptr) {
+                pointers[i] = values[i].buffer->host();
+                arguments.push_back(&pointers[i]);
+            } else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat) {
+                arguments.push_back(&values[i].real);
+            } else {
+                arguments.push_back(&values[i].integer);
+                if (values[i].is_instance) instance_at.push_back(i);
+            }
+        }
+    }
+    BoundLaunch(BoundLaunch&&) = default;  // vectors keep their storage, so the pointers stay valid
+
+    void set_instance(int instance) {
+        for (const std::size_t i : instance_at) values[i].integer = instance;
+    }
+
+    void run(int strip) const {
+        for (int colour = 0; colour < segments.colour_count; ++colour) {
+            const int begin = segments.item(strip, colour);
+            const int end = segments.item(strip, colour + 1);
+            if (begin < end) function(begin, end, arguments.data());
+        }
+    }
+};
+
+struct BoundBody {
+    const TaskBody* body;
+    std::vector<BoundLaunch> launches;
+};
+
+class CpuCompletion final : public Completion {
+public:
+    void wait() override {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return done_; });
+    }
+
+    void when_done(std::function<void()> callback) override {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!done_) {
+                callbacks_.push_back(std::move(callback));
+                return;
+            }
+        }
+        callback();
+    }
+
+    void set_done() {
+        std::vector<std::function<void()>> callbacks;
+        {
+            const std::lock_guard lock(mutex_);
+            done_ = true;
+            callbacks.swap(callbacks_);
+        }
+        changed_.notify_all();
+        for (const auto& callback : callbacks) callback();
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool done_ = false;
+    std::vector<std::function<void()>> callbacks_;
+};
+
+struct Job {
+    BoundBody* body = nullptr;
+    const Task* task = nullptr;
+    int number = 0;
+    int instance = 0;
+    std::vector<Completion*> waits;
+    CpuCompletion completion;
+};
+
+class PinObserver final : public tbb::task_scheduler_observer {
+public:
+    PinObserver(tbb::task_arena& arena, const std::vector<int>& cores)
+        : tbb::task_scheduler_observer(arena), cores_(cores) {
+        if (!cores_.empty()) observe(true);
+    }
+    ~PinObserver() override { observe(false); }
+    void on_scheduler_entry(bool) override { pin_thread(cores_); }
+
+private:
+    std::vector<int> cores_;
+};
+
+/// A thread of its own runs the stream's jobs in order, inside the arena.
+class CpuStream final : public DeviceStream {
+public:
+    CpuStream(int threads, const std::vector<int>& cores, int lanes,
+              std::span<const TaskBody* const> bodies)
+        : arena_(threads), observer_(arena_, cores), threads_(threads), cores_(cores) {
+        for (const TaskBody* body : bodies) {
+            BoundBody bound{body, {}};
+            for (const Launch& launch : body->launches) bound.launches.emplace_back(launch, lanes);
+            bodies_.push_back(std::move(bound));
+        }
+        worker_ = std::jthread([this](std::stop_token stop) { work(stop); });
+    }
+
+    /// Whoever still waits for jobs that were never released (a device failed in mid-submission) must
+    /// not wait for ever.
+    ~CpuStream() override {
+        worker_.request_stop();
+        worker_.join();
+        for (; finished_ < jobs_.size(); ++finished_) jobs_[finished_].completion.set_done();
+    }
+
+    void begin(double epoch) override {
+        jobs_.clear();
+        times_.clear();
+        released_ = finished_ = 0;
+        epoch_ = epoch;
+    }
+
+    Completion* submit(const Submission& s) override {
+        const std::lock_guard lock(mutex_);  // the worker reads jobs_ while it grows
+        Job& job = jobs_.emplace_back();
+        job.body = &find(s.task->body);
+        job.task = s.task;
+        job.number = s.number;
+        job.instance = s.instance;
+        job.waits.assign(s.waits.begin(), s.waits.end());
+        return &job.completion;
+    }
+
+    void flush() override {
+        {
+            const std::lock_guard lock(mutex_);
+            released_ = jobs_.size();
+        }
+        changed_.notify_all();
+    }
+
+    void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>&) override {
+        flush();
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return finished_ == jobs_.size(); });
+        tasks.insert(tasks.end(), times_.begin(), times_.end());
+        if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
+
+    // This device works in the host's memory: there is nothing to copy.
+    Completion* to_device(BufferStorage&, ElementSpan,
+                          std::span<Completion* const>) override {
+        return nullptr;
+    }
+    Completion* to_host(BufferStorage&, ElementSpan,
+                        std::span<Completion* const>) override {
+        return nullptr;
+    }
+
+private:
+    BoundBody& find(const TaskBody* body) {
+        for (BoundBody& bound : bodies_) {
+            if (bound.body == body) return bound;
+        }
+        throw std::logic_error("task body '" + body->name + "' is not part of this stream");
+    }
+
+    void work(const std::stop_token& stop) {
+        pin_thread(cores_);
+        const std::stop_callback wake(stop, [this] {
+            const std::lock_guard lock(mutex_);
+            changed_.notify_all();
+        });
+        std::unique_lock lock(mutex_);
+        while (true) {
+            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < released_; });
+            if (finished_ >= released_) return;
+            Job& job = jobs_[finished_];
+            lock.unlock();
+            run(job);
+            lock.lock();
+            ++finished_;
+            if (finished_ == jobs_.size()) changed_.notify_all();
+        }
+    }
+
+    void run(Job& job) {
+        for (Completion* wait : job.waits) wait->wait();
+        const double start = now() - epoch_;
+        try {
+            run_body(*job.body, *job.task, job.instance);
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        times_.push_back({job.instance, job.number, start, now() - epoch_});
+        job.completion.set_done();
+    }
+
+    void run_body(BoundBody& body, const Task& task, int instance) {
+        for (BoundLaunch& launch : body.launches) launch.set_instance(instance);
+        const auto run_strip = [&](int strip) {
+            for (const BoundLaunch& launch : body.launches) launch.run(strip);
+        };
+        if (threads_ == 1) {
+            for (int strip = task.first_strip; strip < task.end_strip; ++strip) run_strip(strip);
+        } else {
+            arena_.execute([&] { tbb::parallel_for(task.first_strip, task.end_strip, run_strip); });
+        }
+    }
+
+    tbb::task_arena arena_;
+    PinObserver observer_;
+    int threads_;
+    std::vector<int> cores_;
+    std::vector<BoundBody> bodies_;
+    double epoch_ = 0.0;
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<Job> jobs_;  // a deque: jobs never move
+    std::size_t released_ = 0;
+    std::size_t finished_ = 0;
+    std::vector<TaskTime> times_;
+    std::exception_ptr failure_;
+    std::jthread worker_;
+};
+
+class CpuDevice final : public Device {
+public:
+    CpuDevice(int threads, std::vector<int> cores, int lanes)
+        : cores_(std::move(cores)) {
+        info_.name = "TBB, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+        info_.kind = "tbb";
+        info_.units = threads;
+        info_.lanes = lanes;
+    }
+
+    const DeviceInfo& info() const override { return info_; }
+
+    std::unique_ptr<DeviceStream> open_stream(std::span<const TaskBody* const> bodies) override {
+        return std::make_unique<CpuStream>(info_.units, cores_, info_.lanes, bodies);
+    }
+
+private:
+    DeviceInfo info_;
+    std::vector<int> cores_;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> make_cpu_device(int threads, std::vector<int> cores, int lanes) {
+    return std::make_unique<CpuDevice>(threads, std::move(cores), lanes);
+}
+
+}  // namespace weft

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What a trace holds, as plain structs: `RunDescription` once, then one `FrameRecord` per frame.
+/// docs/trace-format.md documents every column. Times are seconds since the run's start (float64,
+/// monotonic clock) unless a field says otherwise. Devices, kinds and energies are indices into
+/// the lists of the RunDescription.
+
+namespace weft {
+
+/// One device of the run. Its index in RunDescription::devices is its number in every table.
+struct DeviceDescription {
+    std::string name;         ///< as the driver reports it
+    std::string kind;         ///< "tbb" or "opencl"
+    std::string driver;       ///< platform and driver version; empty for TBB
+    std::uint32_t units = 0;  ///< threads or compute units in use
+    std::string memory;       ///< "host" (zero copy) or "discrete" (range copies)
+    bool exact = true;        ///< rounds + - * / sqrt as strict arithmetic asks
+};
+
+using TextPairs = std::vector<std::pair<std::string, std::string>>;
+
+/// What made the run; written before the first frame and never changed.
+struct RunDescription {
+    std::string scene_name;
+    std::string scene_text;  ///< the scene file, with overrides applied by `command` alone
+    std::string command;     ///< the command line, words joined by blanks
+    TextPairs versions;      ///< e.g. {"weft", "0.1.0"}, {"hdf5", "1.10.8"}
+    TextPairs settings;      ///< e.g. {"math", "strict"}, {"plan", "exact"}, {"substeps", "8"}
+    std::vector<DeviceDescription> devices;
+    std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "spring", "integrate"
+    std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
+    /// False where all devices share memory: then there is no transfers table.
+    bool has_transfers = false;
+};
+
+/// One task of the plan of a frame's substeps. Every substep of a frame runs the same plan.
+struct PlanRecord {
+    std::uint32_t task = 0;  ///< number in the substep's task graph; executions refer to it
+    std::uint32_t kind = 0;
+    std::uint32_t iteration = 0;  ///< of the substep; 0 for tasks outside the iterations
+    std::uint32_t first_strip = 0;
+    std::uint32_t strip_count = 0;
+    std::uint32_t device = 0;
+    std::uint32_t order = 0;  ///< position in that device's queue
+    std::uint64_t items = 0;  ///< what the cost model counts
+    double start = 0.0;       ///< predicted [s], relative to the substep's start
+    double end = 0.0;
+};
+
+/// One task as it ran.
+struct ExecutionRecord {
+    std::uint32_t substep = 0;
+    std::uint32_t task = 0;
+    std::uint32_t device = 0;
+    std::uint64_t items = 0;
+    double start = 0.0;
+    double end = 0.0;
+};
+
+/// The cost model's opinion of one kind on one device: time [s] = fixed + per_item * items.
+struct CostRecord {
+    std::uint32_t kind = 0;
+    std::uint32_t device = 0;
+    double fixed = 0.0;
+    double per_item = 0.0;
+    std::uint32_t samples = 0;  ///< executions the fit rests on
+};
+
+/// One copy between the memories of two devices, made for `task`, the task that reads the data.
+struct TransferRecord {
+    std::uint32_t substep = 0;
+    std::uint32_t task = 0;
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    std::uint64_t bytes = 0;
+    double start = 0.0;
+    double end = 0.0;
+};
+
+/// Everything about one frame; the writer takes it whole.
+struct FrameRecord {
+    std::uint32_t frame = 0;
+    double sim_time = 0.0;  ///< simulated time at the frame's end [s]
+    double start = 0.0;
+    double end = 0.0;
+    double planned_makespan = 0.0;   ///< of the whole frame (all substeps) [s]
+    double measured_makespan = 0.0;  ///< of the whole frame (all substeps) [s]
+    double lower_bound = 0.0;        ///< no plan of this frame can be predicted faster [s]
+    double plan_time = 0.0;          ///< time the planner took [s]
+    std::uint64_t transferred_bytes = 0;
+    std::vector<double> busy;  ///< [devices] time spent in tasks [s]
+    std::vector<PlanRecord> plan;
+    std::vector<ExecutionRecord> executions;
+    std::vector<CostRecord> costs;
+    std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
+    double kinetic_energy = 0.0;            ///< [J]; the frame's end state
+    double gravity_energy = 0.0;            ///< potential in gravity [J]
+    std::vector<double> energies;           ///< [RunDescription::energies] [J]
+};
+
+}  // namespace weft

@@ -1,0 +1,202 @@
+#include "runtime/trace/tables.h"
+
+#include <cstddef>
+
+namespace weft::trace {
+
+namespace {
+
+template <class Record>
+hid_t native_type();
+template <>
+hid_t native_type<std::uint32_t>() {
+    return H5T_NATIVE_UINT32;
+}
+template <>
+hid_t native_type<std::uint64_t>() {
+    return H5T_NATIVE_UINT64;
+}
+template <>
+hid_t native_type<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
+
+/// Column for a member of a record that stands `base` bytes into the row.
+template <class Record, class Member>
+RowType::Column column(const char* name, Member Record::*member, std::size_t base = 0) {
+    const Record record{};
+    const auto* begin = reinterpret_cast<const std::byte*>(&record);
+    const auto* field = reinterpret_cast<const std::byte*>(&(record.*member));
+    return {name, native_type<Member>(), base + static_cast<std::size_t>(field - begin)};
+}
+
+/// Collects the columns of a Row<Record>, `frame` first.
+template <class Record>
+class RowColumns {
+public:
+    template <class Member>
+    RowColumns& add(const char* name, Member Record::*member) {
+        columns_.push_back(column(name, member, offsetof(Row<Record>, record)));
+        return *this;
+    }
+    RowType type() const { return {sizeof(Row<Record>), columns_}; }
+
+private:
+    std::vector<RowType::Column> columns_{column("frame", &Row<Record>::frame)};
+};
+
+hdf5::Handle compound_type(std::size_t size, const std::vector<RowType::Column>& columns) {
+    constexpr const char* kWhat = "create a table's row type";
+    hdf5::Handle type(H5Tcreate(H5T_COMPOUND, size), H5Tclose, kWhat);
+    for (const RowType::Column& column : columns) {
+        hdf5::check(H5Tinsert(type.id(), column.name.c_str(), column.offset, column.type), kWhat);
+    }
+    return type;
+}
+
+std::size_t align_to_double(std::size_t size) {
+    return (size + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+}
+
+/// A device as HDF5 stores it: text by pointer.
+struct DeviceRow {
+    const char* name;
+    const char* kind;
+    const char* driver;
+    std::uint32_t units;
+    const char* memory;
+    signed char exact;
+};
+
+hdf5::Handle device_type(hid_t text, hid_t boolean) {
+    return compound_type(sizeof(DeviceRow),
+                         {{"name", text, offsetof(DeviceRow, name)},
+                          {"kind", text, offsetof(DeviceRow, kind)},
+                          {"driver", text, offsetof(DeviceRow, driver)},
+                          {"units", H5T_NATIVE_UINT32, offsetof(DeviceRow, units)},
+                          {"memory", text, offsetof(DeviceRow, memory)},
+                          {"exact", boolean, offsetof(DeviceRow, exact)}});
+}
+
+}  // namespace
+
+RowType::RowType(std::size_t struct_size, std::vector<Column> columns,
+                 const std::vector<std::string>& doubles)
+    : size_(align_to_double(struct_size)) {
+    for (const std::string& name : doubles) {
+        columns.push_back({name, H5T_NATIVE_DOUBLE, size_});
+        size_ += sizeof(double);
+    }
+    memory_ = compound_type(size_, columns);
+    file_ = hdf5::Handle(H5Tcopy(memory_.id()), H5Tclose, "create a table's row type");
+    hdf5::check(H5Tpack(file_.id()), "create a table's row type");
+    frame_only_ = compound_type(sizeof(std::uint32_t), {{"frame", H5T_NATIVE_UINT32, 0}});
+}
+
+RowType frame_row_type(std::size_t device_count) {
+    std::vector<std::string> busy;
+    for (std::size_t i = 0; i < device_count; ++i) busy.push_back("busy_" + std::to_string(i));
+    return {sizeof(FrameColumns),
+            {column("frame", &FrameColumns::frame), column("sim_time", &FrameColumns::sim_time),
+             column("start", &FrameColumns::start), column("end", &FrameColumns::end),
+             column("planned_makespan", &FrameColumns::planned_makespan),
+             column("measured_makespan", &FrameColumns::measured_makespan),
+             column("lower_bound", &FrameColumns::lower_bound),
+             column("plan_time", &FrameColumns::plan_time),
+             column("transferred_bytes", &FrameColumns::transferred_bytes)},
+            busy};
+}
+
+RowType energy_row_type(const std::vector<std::string>& energies) {
+    std::vector<std::string> others = energies;
+    others.emplace_back("total");
+    return {sizeof(EnergyColumns),
+            {column("frame", &EnergyColumns::frame), column("kinetic", &EnergyColumns::kinetic),
+             column("gravity", &EnergyColumns::gravity)},
+            others};
+}
+
+RowType plan_row_type() {
+    return RowColumns<PlanRecord>()
+        .add("task", &PlanRecord::task)
+        .add("kind", &PlanRecord::kind)
+        .add("iteration", &PlanRecord::iteration)
+        .add("first_strip", &PlanRecord::first_strip)
+        .add("strip_count", &PlanRecord::strip_count)
+        .add("device", &PlanRecord::device)
+        .add("order", &PlanRecord::order)
+        .add("items", &PlanRecord::items)
+        .add("start", &PlanRecord::start)
+        .add("end", &PlanRecord::end)
+        .type();
+}
+
+RowType execution_row_type() {
+    return RowColumns<ExecutionRecord>()
+        .add("substep", &ExecutionRecord::substep)
+        .add("task", &ExecutionRecord::task)
+        .add("device", &ExecutionRecord::device)
+        .add("items", &ExecutionRecord::items)
+        .add("start", &ExecutionRecord::start)
+        .add("end", &ExecutionRecord::end)
+        .type();
+}
+
+RowType cost_row_type() {
+    return RowColumns<CostRecord>()
+        .add("kind", &CostRecord::kind)
+        .add("device", &CostRecord::device)
+        .add("fixed", &CostRecord::fixed)
+        .add("per_item", &CostRecord::per_item)
+        .add("samples", &CostRecord::samples)
+        .type();
+}
+
+RowType transfer_row_type() {
+    return RowColumns<TransferRecord>()
+        .add("substep", &TransferRecord::substep)
+        .add("task", &TransferRecord::task)
+        .add("from", &TransferRecord::from)
+        .add("to", &TransferRecord::to)
+        .add("bytes", &TransferRecord::bytes)
+        .add("start", &TransferRecord::start)
+        .add("end", &TransferRecord::end)
+        .type();
+}
+
+void write_devices(hid_t run_group, const std::vector<DeviceDescription>& devices) {
+    std::vector<DeviceRow> rows;
+    for (const DeviceDescription& device : devices) {
+        rows.push_back({device.name.c_str(), device.kind.c_str(), device.driver.c_str(),
+                        device.units, device.memory.c_str(),
+                        static_cast<signed char>(device.exact)});
+    }
+    const hdf5::Handle text = hdf5::string_type();
+    const hdf5::Handle boolean = hdf5::bool_type();
+    const hdf5::Handle type = device_type(text.id(), boolean.id());
+    const hsize_t shape[] = {rows.size()};
+    hdf5::write_array(run_group, "devices", type.id(), shape, rows.data());
+}
+
+std::vector<DeviceDescription> read_devices(hid_t run_group) {
+    constexpr const char* kWhat = "read dataset 'devices'";
+    const hdf5::Handle dataset(H5Dopen2(run_group, "devices", H5P_DEFAULT), H5Dclose, kWhat);
+    const hdf5::Handle space(H5Dget_space(dataset.id()), H5Sclose, kWhat);
+    const hdf5::Handle text = hdf5::string_type();
+    const hdf5::Handle boolean = hdf5::bool_type();
+    const hdf5::Handle type = device_type(text.id(), boolean.id());
+    std::vector<DeviceRow> rows(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())),
+                                DeviceRow{});
+    hdf5::check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()),
+                kWhat);
+    std::vector<DeviceDescription> devices;
+    const auto value = [](const char* string) { return std::string(string ? string : ""); };
+    for (const DeviceRow& row : rows) {
+        devices.push_back({value(row.name), value(row.kind), value(row.driver), row.units,
+                           value(row.memory), row.exact != 0});
+    }
+    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, rows.data());
+    return devices;
+}
+
+}  // namespace weft::trace

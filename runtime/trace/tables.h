@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/trace/hdf5.h"
+#include "runtime/trace/records.h"
+
+/// The columns of a trace's tables: one definition for writer and reader. The library matches
+/// columns by name, so a reader of an older or newer Weft finds those it knows.
+
+namespace weft::trace {
+
+inline constexpr const char* kFormatName = "weft-trace";
+inline constexpr int kFormatVersion = 1;
+
+/// A row as it lies in memory: the frame it belongs to, then the record.
+template <class Record>
+struct Row {
+    std::uint32_t frame = 0;
+    Record record;
+};
+
+/// The columns of `frames` whose number does not depend on the run; busy_0, busy_1, ... follow.
+struct FrameColumns {
+    std::uint32_t frame = 0;
+    double sim_time = 0.0;
+    double start = 0.0;
+    double end = 0.0;
+    double planned_makespan = 0.0;
+    double measured_makespan = 0.0;
+    double lower_bound = 0.0;
+    double plan_time = 0.0;
+    std::uint64_t transferred_bytes = 0;
+};
+
+/// The columns of `energies` that every run has, in joules; one per energy of the scene and
+/// `total` follow.
+struct EnergyColumns {
+    std::uint32_t frame = 0;
+    double kinetic = 0.0;
+    double gravity = 0.0;
+};
+
+/// A compound type over a C++ struct, with `doubles` appended behind it.
+class RowType {
+public:
+    struct Column {
+        std::string name;
+        hid_t type;
+        std::size_t offset;
+    };
+
+    RowType(std::size_t struct_size, std::vector<Column> columns,
+            const std::vector<std::string>& doubles = {});
+
+    hid_t memory() const { return memory_.id(); }
+    hid_t file() const { return file_.id(); }  ///< the same columns without gaps
+    hid_t frame_only() const { return frame_only_.id(); }
+    std::size_t size() const { return size_; }  ///< of a row in memory [bytes]
+
+private:
+    std::size_t size_;
+    hdf5::Handle memory_;
+    hdf5::Handle file_;
+    hdf5::Handle frame_only_;
+};
+
+RowType frame_row_type(std::size_t device_count);
+RowType energy_row_type(const std::vector<std::string>& energies);
+RowType plan_row_type();       ///< Row<PlanRecord>
+RowType execution_row_type();  ///< Row<ExecutionRecord>
+RowType cost_row_type();       ///< Row<CostRecord>
+RowType transfer_row_type();   ///< Row<TransferRecord>
+
+void write_devices(hid_t run_group, const std::vector<DeviceDescription>& devices);
+std::vector<DeviceDescription> read_devices(hid_t run_group);
+
+}  // namespace weft::trace

@@ -1,0 +1,278 @@
+#include "runtime/trace/trace_reader.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "runtime/error.h"
+#include "runtime/trace/tables.h"
+
+namespace weft {
+
+namespace {
+
+using hdf5::Handle;
+using trace::Row;
+using trace::RowType;
+
+struct RowRange {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
+/// Reads ranges of a table's rows; a table that the trace does not have is empty.
+class TableReader {
+public:
+    TableReader(hid_t file, std::string name, RowType type)
+        : name_(std::move(name)), type_(std::move(type)) {
+        if (!hdf5::exists(file, name_)) return;
+        data_ = Handle(H5Dopen2(file, name_.c_str(), H5P_DEFAULT), H5Dclose, what());
+        const Handle space(H5Dget_space(data_.id()), H5Sclose, what());
+        if (H5Sget_simple_extent_ndims(space.id()) != 1) throw hdf5::Error(what() + ": no table");
+        rows_ = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id()));
+    }
+
+    std::size_t rows() const { return rows_; }
+    std::size_t row_size() const { return type_.size(); }
+
+    std::vector<std::byte> read(RowRange range) const {
+        return read_as(type_.memory(), type_.size(), range);
+    }
+
+    /// The rows that belong to `frame`; rows are in rising order of frames.
+    RowRange of_frame(std::uint32_t frame) const {
+        if (!frames_) frames_ = read_frame_column();
+        const auto [begin, end] = std::equal_range(frames_->begin(), frames_->end(), frame);
+        return {static_cast<std::size_t>(begin - frames_->begin()),
+                static_cast<std::size_t>(end - begin)};
+    }
+
+    template <class Record>
+    std::vector<Record> records(std::uint32_t frame) const {
+        const RowRange range = of_frame(frame);
+        const std::vector<std::byte> bytes = read(range);
+        std::vector<Record> records(range.count);
+        for (std::size_t i = 0; i < range.count; ++i) {
+            Row<Record> row;
+            std::memcpy(&row, bytes.data() + i * sizeof(row), sizeof(row));
+            records[i] = row.record;
+        }
+        return records;
+    }
+
+private:
+    std::string what() const { return "read table '" + name_ + "'"; }
+
+    std::vector<std::uint32_t> read_frame_column() const {
+        const std::vector<std::byte> bytes =
+            read_as(type_.frame_only(), sizeof(std::uint32_t), {0, rows_});
+        std::vector<std::uint32_t> frames(rows_);
+        std::memcpy(frames.data(), bytes.data(), bytes.size());
+        return frames;
+    }
+
+    /// Columns that the file lacks stay 0.
+    std::vector<std::byte> read_as(hid_t memory_type, std::size_t row_size, RowRange range) const {
+        std::vector<std::byte> bytes(range.count * row_size);
+        if (range.count == 0) return bytes;
+        const hsize_t start = range.first;
+        const hsize_t count = range.count;
+        const Handle file_space(H5Dget_space(data_.id()), H5Sclose, what());
+        hdf5::check(
+            H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, &start, nullptr, &count, nullptr),
+            what());
+        const Handle memory_space(H5Screate_simple(1, &count, nullptr), H5Sclose, what());
+        hdf5::check(H5Dread(data_.id(), memory_type, memory_space.id(), file_space.id(),
+                            H5P_DEFAULT, bytes.data()),
+                    what());
+        return bytes;
+    }
+
+    std::string name_;
+    RowType type_;
+    Handle data_;
+    std::size_t rows_ = 0;
+    mutable std::optional<std::vector<std::uint32_t>> frames_;
+};
+
+template <class Columns>
+Columns fixed_columns(const std::byte* row) {
+    Columns columns;
+    std::memcpy(&columns, row, sizeof(columns));
+    return columns;
+}
+
+std::vector<double> last_doubles(const std::byte* row, std::size_t row_size, std::size_t count) {
+    std::vector<double> values(count);
+    std::memcpy(values.data(), row + row_size - count * sizeof(double), count * sizeof(double));
+    return values;
+}
+
+TextPairs read_pairs(hid_t parent, const std::string& name) {
+    TextPairs pairs;
+    if (!hdf5::exists(parent, name)) return pairs;
+    const Handle group(H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "open " + name);
+    for (const std::string& key : hdf5::attribute_names(group.id())) {
+        pairs.emplace_back(key, hdf5::read_text_attribute(group.id(), key));
+    }
+    return pairs;
+}
+
+struct Tables {
+    Tables(hid_t file, const RunDescription& run)
+        : plan(file, "plan", trace::plan_row_type()),
+          executions(file, "executions", trace::execution_row_type()),
+          costs(file, "costs", trace::cost_row_type()),
+          transfers(file, "transfers", trace::transfer_row_type()),
+          energies(file, "energies", trace::energy_row_type(run.energies)),
+          frames(file, "frames", trace::frame_row_type(run.devices.size())) {}
+
+    TableReader plan;
+    TableReader executions;
+    TableReader costs;
+    TableReader transfers;
+    TableReader energies;
+    TableReader frames;
+};
+
+}  // namespace
+
+class TraceReader::Impl {
+public:
+    explicit Impl(const std::filesystem::path& path) : path_(path.string()) {
+        check_it_is_hdf5();
+        guarded([&] {
+            file_ = hdf5::open_to_read(path_);
+            check_format();
+            read_run();
+            tables_.emplace(file_.id(), run_);
+            read_frames();
+            read_energies();
+        });
+    }
+
+    FrameRecord frame(std::size_t index) const {
+        FrameRecord record = frames_.at(index);
+        guarded([&] {
+            record.plan = tables_->plan.records<PlanRecord>(record.frame);
+            record.executions = tables_->executions.records<ExecutionRecord>(record.frame);
+            record.costs = tables_->costs.records<CostRecord>(record.frame);
+            record.transfers = tables_->transfers.records<TransferRecord>(record.frame);
+        });
+        return record;
+    }
+
+    RunDescription run_;
+    std::string started_;
+    std::string state_hash_;
+    bool finished_ = false;
+    std::vector<FrameRecord> frames_;
+
+private:
+    void check_it_is_hdf5() const {
+        if (!std::filesystem::exists(path_)) throw UserError(path_ + ": no such trace");
+        if (std::filesystem::is_directory(path_)) {
+            throw UserError(path_ + ": is a folder; a trace is a file, usually trace.h5 in it");
+        }
+        const hdf5::Session session;
+        if (H5Fis_hdf5(path_.c_str()) <= 0) {
+            throw UserError(path_ + ": not a trace: it is not an HDF5 file, or was cut off");
+        }
+    }
+
+    void check_format() const {
+        const hid_t file = file_.id();
+        if (H5Aexists(file, "format") <= 0 ||
+            hdf5::read_text_attribute(file, "format") != trace::kFormatName) {
+            throw UserError(path_ +
+                            ": not a trace of Weft: an HDF5 file, but its attribute"
+                            " 'format' is not \"" +
+                            trace::kFormatName + "\"");
+        }
+        const int version = hdf5::read_int_attribute(file, "format_version");
+        if (version != trace::kFormatVersion) {
+            throw UserError(path_ + ": trace format version " + std::to_string(version) +
+                            "; this Weft reads version " + std::to_string(trace::kFormatVersion));
+        }
+    }
+
+    void read_run() {
+        finished_ = hdf5::read_bool_attribute(file_.id(), "finished");
+        state_hash_ = hdf5::read_text_attribute(file_.id(), "state_hash");
+        const Handle group(H5Gopen2(file_.id(), "run", H5P_DEFAULT), H5Gclose, "open group 'run'");
+        started_ = hdf5::read_text_attribute(group.id(), "started");
+        run_.scene_name = hdf5::read_text_attribute(group.id(), "scene_name");
+        run_.command = hdf5::read_text_attribute(group.id(), "command");
+        run_.scene_text = hdf5::read_text(group.id(), "scene");
+        run_.kinds = hdf5::read_texts(group.id(), "kinds");
+        run_.energies = hdf5::read_texts(group.id(), "energies");
+        run_.devices = trace::read_devices(group.id());
+        run_.versions = read_pairs(group.id(), "versions");
+        run_.settings = read_pairs(group.id(), "settings");
+        run_.has_transfers = hdf5::exists(file_.id(), "transfers");
+    }
+
+    void read_frames() {
+        const TableReader& table = tables_->frames;
+        const std::vector<std::byte> bytes = table.read({0, table.rows()});
+        frames_.resize(table.rows());
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
+            const std::byte* row = bytes.data() + i * table.row_size();
+            const auto columns = fixed_columns<trace::FrameColumns>(row);
+            FrameRecord& frame = frames_[i];
+            frame.frame = columns.frame;
+            frame.sim_time = columns.sim_time;
+            frame.start = columns.start;
+            frame.end = columns.end;
+            frame.planned_makespan = columns.planned_makespan;
+            frame.measured_makespan = columns.measured_makespan;
+            frame.lower_bound = columns.lower_bound;
+            frame.plan_time = columns.plan_time;
+            frame.transferred_bytes = columns.transferred_bytes;
+            frame.busy = last_doubles(row, table.row_size(), run_.devices.size());
+        }
+    }
+
+    /// One row per frame, in the same order.
+    void read_energies() {
+        const TableReader& table = tables_->energies;
+        const std::size_t count = std::min(table.rows(), frames_.size());
+        const std::vector<std::byte> bytes = table.read({0, count});
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::byte* row = bytes.data() + i * table.row_size();
+            const auto columns = fixed_columns<trace::EnergyColumns>(row);
+            frames_[i].kinetic_energy = columns.kinetic;
+            frames_[i].gravity_energy = columns.gravity;
+            frames_[i].energies = last_doubles(row, table.row_size(), run_.energies.size() + 1);
+            frames_[i].energies.pop_back();  // the total, which follows from the others
+        }
+    }
+
+    template <class Action>
+    void guarded(Action action) const {
+        const hdf5::Session session;
+        try {
+            action();
+        } catch (const hdf5::Error& error) {
+            throw UserError(path_ + ": cannot read the trace: " + error.what());
+        }
+    }
+
+    const std::string path_;
+    Handle file_;
+    std::optional<Tables> tables_;
+};
+
+TraceReader::TraceReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+
+TraceReader::~TraceReader() = default;
+
+const RunDescription& TraceReader::run() const { return impl_->run_; }
+const std::string& TraceReader::started() const { return impl_->started_; }
+bool TraceReader::finished() const { return impl_->finished_; }
+const std::string& TraceReader::state_hash() const { return impl_->state_hash_; }
+const std::vector<FrameRecord>& TraceReader::frames() const { return impl_->frames_; }
+FrameRecord TraceReader::frame(std::size_t index) const { return impl_->frame(index); }
+
+}  // namespace weft

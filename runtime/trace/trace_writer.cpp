@@ -1,0 +1,223 @@
+#include "runtime/trace/trace_writer.h"
+
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "runtime/error.h"
+#include "runtime/trace/background_writer.h"
+#include "runtime/trace/tables.h"
+
+namespace weft {
+
+namespace {
+
+using hdf5::GrowingDataset;
+using hdf5::Handle;
+using trace::Row;
+using trace::RowType;
+
+/// A table and the rows of the frame at hand. Chunks of compressed tables hold about one frame of
+/// a middling scene: each flush writes the last chunk anew, in new space, since its size changes.
+class Table {
+public:
+    Table(hid_t file, const std::string& name, RowType type, hsize_t chunk_rows, unsigned deflate)
+        : type_(std::move(type)), data_(file, name, type_.file(), {}, chunk_rows, deflate) {}
+
+    template <class Record>
+    void append(std::uint32_t frame, const std::vector<Record>& records) {
+        std::vector<Row<Record>> rows;
+        rows.reserve(records.size());
+        for (const Record& record : records) rows.push_back({frame, record});
+        data_.append(type_.memory(), rows.data(), rows.size());
+        data_.flush();
+    }
+
+    /// One row: the fixed columns, then the doubles that follow them.
+    template <class Columns>
+    void append(const Columns& columns, const std::vector<double>& doubles) {
+        std::vector<std::byte> row(type_.size());
+        const std::size_t tail = doubles.size() * sizeof(double);
+        std::memcpy(row.data(), &columns, sizeof(columns));
+        std::memcpy(row.data() + row.size() - tail, doubles.data(), tail);
+        data_.append(type_.memory(), row.data(), 1);
+        data_.flush();
+    }
+
+    void close() { data_.close(); }
+    void abandon() { data_.abandon(); }
+
+private:
+    RowType type_;
+    GrowingDataset data_;
+};
+
+constexpr unsigned kDeflate = 1;  // higher levels cost far more time and save little
+constexpr hsize_t kManyRows = 512;
+constexpr hsize_t kFewRows = 64;
+
+struct Tables {
+    Tables(hid_t file, const RunDescription& run)
+        : plan(file, "plan", trace::plan_row_type(), kManyRows, kDeflate),
+          executions(file, "executions", trace::execution_row_type(), kManyRows, kDeflate),
+          costs(file, "costs", trace::cost_row_type(), kFewRows, 0),
+          energies(file, "energies", trace::energy_row_type(run.energies), kFewRows, 0),
+          frames(file, "frames", trace::frame_row_type(run.devices.size()), kFewRows, 0) {
+        if (run.has_transfers) {
+            transfers.emplace(file, "transfers", trace::transfer_row_type(), kManyRows, kDeflate);
+        }
+    }
+
+    /// The row of `frames` comes last: a frame that has one is complete.
+    void append(const FrameRecord& record) {
+        plan.append(record.frame, record.plan);
+        executions.append(record.frame, record.executions);
+        costs.append(record.frame, record.costs);
+        if (transfers) transfers->append(record.frame, record.transfers);
+        append_energies(record);
+        frames.append(
+            trace::FrameColumns{record.frame, record.sim_time, record.start, record.end,
+                                record.planned_makespan, record.measured_makespan,
+                                record.lower_bound, record.plan_time, record.transferred_bytes},
+            record.busy);
+    }
+
+    void append_energies(const FrameRecord& record) {
+        std::vector<double> values = record.energies;
+        values.push_back(std::accumulate(values.begin(), values.end(),
+                                         record.kinetic_energy + record.gravity_energy));
+        energies.append(
+            trace::EnergyColumns{record.frame, record.kinetic_energy, record.gravity_energy},
+            values);
+    }
+
+    void close() {
+        for_each([](Table& table) { table.close(); });
+    }
+    void abandon() {
+        for_each([](Table& table) { table.abandon(); });
+    }
+
+    template <class Action>
+    void for_each(Action action) {
+        for (Table* table : {&plan, &executions, &costs, &energies, &frames}) action(*table);
+        if (transfers) action(*transfers);
+    }
+
+    Table plan;
+    Table executions;
+    Table costs;
+    Table energies;
+    Table frames;
+    std::optional<Table> transfers;
+};
+
+std::string now_utc() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[sizeof("2000-01-01T00:00:00Z")];
+    std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+void write_pairs(hid_t parent, const std::string& name, const TextPairs& pairs) {
+    const Handle group = hdf5::create_group(parent, name);
+    for (const auto& [key, value] : pairs) hdf5::write_text_attribute(group.id(), key, value);
+}
+
+void write_run(hid_t file, const RunDescription& run) {
+    const int version[] = {trace::kFormatVersion};
+    hdf5::write_text_attribute(file, "format", trace::kFormatName);
+    hdf5::write_int_attribute(file, "format_version", version);
+    hdf5::write_bool_attribute(file, "finished", false);
+    hdf5::write_text_attribute(file, "state_hash", "");
+
+    const Handle group = hdf5::create_group(file, "run");
+    hdf5::write_text_attribute(group.id(), "scene_name", run.scene_name);
+    hdf5::write_text_attribute(group.id(), "command", run.command);
+    hdf5::write_text_attribute(group.id(), "started", now_utc());
+    hdf5::write_text(group.id(), "scene", run.scene_text);
+    hdf5::write_texts(group.id(), "kinds", run.kinds);
+    hdf5::write_texts(group.id(), "energies", run.energies);
+    trace::write_devices(group.id(), run.devices);
+    write_pairs(group.id(), "versions", run.versions);
+    write_pairs(group.id(), "settings", run.settings);
+}
+
+}  // namespace
+
+class TraceWriter::Impl {
+public:
+    Impl(const std::filesystem::path& path, const RunDescription& run)
+        : path_(path.string()),
+          device_count_(run.devices.size()),
+          energy_count_(run.energies.size()) {
+        guarded([&] { create(run); });
+        background_.emplace(
+            [this](FrameRecord& record) { guarded([&] { tables_->append(record); }); });
+    }
+
+    void append(FrameRecord record) {
+        if (record.busy.size() != device_count_ || record.energies.size() != energy_count_) {
+            throw std::invalid_argument("a frame's record does not fit the run's description");
+        }
+        background_->push(std::move(record));
+    }
+
+    void finish(const std::string& state_hash) {
+        background_->drain();
+        guarded([&] {
+            tables_->close();
+            tables_.reset();
+            file_.close("close");
+            file_ = hdf5::open_to_modify(path_);  // text cannot be rewritten while readers follow
+            hdf5::write_text_attribute(file_.id(), "state_hash", state_hash);
+            hdf5::write_bool_attribute(file_.id(), "finished", true);
+            file_.close("close");
+        });
+    }
+
+private:
+    void create(const RunDescription& run) {
+        file_ = hdf5::create_file(hdf5::part_name(path_), hdf5::FileFormat::kSwmr);
+        write_run(file_.id(), run);
+        tables_.emplace(file_.id(), run);
+        hdf5::check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "write");
+        hdf5::check(H5Fstart_swmr_write(file_.id()), "let readers follow");
+        hdf5::publish(path_);
+    }
+
+    template <class Action>
+    void guarded(Action action) {
+        const hdf5::Session session;
+        try {
+            action();
+        } catch (const hdf5::Error& error) {
+            if (tables_) tables_->abandon();
+            file_.abandon();
+            throw RunError(path_ + ": cannot write the trace: " + error.what());
+        }
+    }
+
+    const std::string path_;
+    const std::size_t device_count_;
+    const std::size_t energy_count_;
+    hdf5::Handle file_;
+    std::optional<Tables> tables_;
+    std::optional<BackgroundWriter<FrameRecord>> background_;
+};
+
+TraceWriter::TraceWriter(const std::filesystem::path& path, const RunDescription& run)
+    : impl_(std::make_unique<Impl>(path, run)) {}
+
+TraceWriter::~TraceWriter() = default;
+
+void TraceWriter::append(FrameRecord record) { impl_->append(std::move(record)); }
+
+void TraceWriter::finish(const std::string& state_hash) { impl_->finish(state_hash); }
+
+}  // namespace weft

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft::scheduler {
+
+struct PlanChoiceSettings {
+    double margin = 0.03;           ///< relative gain below which a change is not worth it
+    std::uint32_t patience = 3;     ///< frames in a row in which the gain must be there
+    double learning_rate = 0.2;     ///< of measured / planned, per frame in use
+    double forgetting_rate = 0.01;  ///< of the same, per frame out of use
+};
+
+/// Chooses between alternatives (each single device, the mixture, ...) frame by frame, so that
+/// noise does not flip plans: a change needs a gain above the margin for some frames in a row. And
+/// what predictions get wrong is learnt: each alternative's prediction is multiplied by how much
+/// longer than planned it has been taking, which is slowly forgotten while it is out of use.
+class PlanChoice {
+public:
+    explicit PlanChoice(std::uint32_t alternatives, const PlanChoiceSettings& settings = {});
+
+    /// predicted  [alternative] seconds; infinite where it is impossible. At least one is finite.
+    /// Changes at once if the present one has become impossible.
+    std::uint32_t choose(std::span<const double> predicted);
+
+    /// What a frame planned by this alternative took.
+    void measured(std::uint32_t alternative, double planned, double seconds);
+
+    std::uint32_t current() const { return current_; }
+    /// How much longer than planned the alternative takes, as learnt.
+    double correction(std::uint32_t alternative) const { return correction_[alternative]; }
+
+private:
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    PlanChoiceSettings settings_;
+    std::vector<double> correction_;  // [alternative]
+    std::uint32_t current_ = kNone;
+    std::uint32_t frames_better_ = 0;
+};
+
+}  // namespace weft::scheduler

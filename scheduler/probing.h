@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace weft::scheduler {
+
+struct ProbeSettings {
+    std::uint32_t interval = 30;  ///< frames out of use after which a device may be probed
+    double price_share = 0.01;    ///< part of the run time that probes may cost
+};
+
+/// When to try a device that the plans leave out, since its costs may have been learnt in a bad
+/// moment. Probes are paid from a credit that grows with the run time: so their price is bounded,
+/// however slow the device is, and yet each device is probed again in the end.
+class ProbePolicy {
+public:
+    explicit ProbePolicy(std::uint32_t devices, const ProbeSettings& settings = {})
+        : settings_(settings), idle_frames_(devices, 0) {}
+
+    /// Call once per frame. seconds  what it took.
+    void end_frame(double seconds) {
+        credit_ += settings_.price_share * seconds;
+        for (std::uint32_t& frames : idle_frames_) ++frames;
+    }
+    /// The device has run tasks of this frame, so its costs are up to date.
+    void used(std::uint32_t device) { idle_frames_[device] = 0; }
+
+    /// Whether to probe the device now.
+    /// price  predicted seconds by which the frame gets longer; >= 0.
+    bool due(std::uint32_t device, double price) const {
+        return idle_frames_[device] >= settings_.interval && price <= credit_;
+    }
+    /// A probe was made. price  as predicted, or as measured.
+    void paid(std::uint32_t device, double price) {
+        credit_ -= price;
+        idle_frames_[device] = 0;
+    }
+    /// Seconds that probes may cost now; negative after one that was dearer than predicted.
+    double credit() const { return credit_; }
+
+private:
+    ProbeSettings settings_;
+    double credit_ = 0.0;
+    std::vector<std::uint32_t> idle_frames_;  // [device]
+};
+
+}  // namespace weft::scheduler

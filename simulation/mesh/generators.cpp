@@ -1,0 +1,80 @@
+#include "simulation/mesh/generators.h"
+
+#include <numbers>
+
+namespace weft {
+namespace {
+
+/// How far along its row a vertex lies, from 0 to 1, exactly at both ends.
+double fraction(int index, int last) { return static_cast<double>(index) / last; }
+
+void finish(TriangleMesh& mesh, std::string name) {
+    mesh.source = name;
+    mesh.parts = {{std::move(name), 0, mesh.triangle_count()}};
+}
+
+std::vector<Vec3>& reserved(TriangleMesh& mesh, std::array<int, 2> resolution) {
+    const auto vertices = static_cast<std::size_t>(resolution[0]) * resolution[1];
+    mesh.positions.reserve(vertices);
+    mesh.triangles.reserve(2 * vertices);
+    return mesh.positions;
+}
+
+/// Cuts the cell of corners a, b (one row) and c, d (next row) along b-c.
+void add_cell(TriangleMesh& mesh, int a, int b, int c, int d, bool flip) {
+    if (flip) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({b, d, c});
+    } else {
+        mesh.triangles.push_back({a, c, b});
+        mesh.triangles.push_back({b, c, d});
+    }
+}
+
+}  // namespace
+
+TriangleMesh make_grid(std::array<double, 2> size, std::array<int, 2> resolution) {
+    TriangleMesh mesh;
+    const auto [nx, nz] = resolution;
+    std::vector<Vec3>& positions = reserved(mesh, resolution);
+    for (int k = 0; k < nz; ++k) {
+        for (int i = 0; i < nx; ++i) {
+            positions.push_back({size[0] * (fraction(i, nx - 1) - 0.5), 0.0,
+                                 size[1] * (fraction(k, nz - 1) - 0.5)});
+        }
+    }
+    for (int k = 0; k + 1 < nz; ++k) {
+        for (int i = 0; i + 1 < nx; ++i) {
+            const int a = k * nx + i;
+            add_cell(mesh, a, a + 1, a + nx, a + nx + 1, false);
+        }
+    }
+    finish(mesh, "grid");
+    return mesh;
+}
+
+TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
+                           std::array<int, 2> resolution) {
+    TriangleMesh mesh;
+    const auto [around, along] = resolution;
+    std::vector<Vec3>& positions = reserved(mesh, resolution);
+    for (int k = 0; k < along; ++k) {
+        const double down = fraction(k, along - 1);
+        const double r = radius[0] + down * (radius[1] - radius[0]);
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2.0 * std::numbers::pi * fraction(i, around);
+            positions.push_back({r * std::cos(angle), height * (0.5 - down), r * std::sin(angle)});
+        }
+    }
+    for (int k = 0; k + 1 < along; ++k) {
+        for (int i = 0; i < around; ++i) {
+            const int a = k * around + i;
+            const int b = k * around + (i + 1) % around;
+            add_cell(mesh, a, b, a + around, b + around, true);
+        }
+    }
+    finish(mesh, "cylinder");
+    return mesh;
+}
+
+}  // namespace weft

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+#include "simulation/mesh/triangle_mesh.h"
+
+namespace weft {
+
+/// A flat sheet in the x-z plane, centred at the origin, its triangles facing +y.
+/// size [m] along x and z; resolution = vertices along x and z, >= 2.
+/// Vertex (i, k) has index k * resolution[0] + i; x grows with i and z with k. Every cell is cut
+/// along the same diagonal, from (i + 1, k) to (i, k + 1).
+TriangleMesh make_grid(std::array<double, 2> size, std::array<int, 2> resolution);
+
+/// The open side of a cone around the y axis, from y = height/2 down to -height/2, facing outward.
+/// radius [m] at the top and at the bottom; resolution = vertices around (>= 3) and from top to
+/// bottom (>= 2). Vertex (i, k) has index k * resolution[0] + i; row k = 0 is the top rim, i turns
+/// from +x to +z. Cells are cut as in make_grid().
+TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
+                           std::array<int, 2> resolution);
+
+}  // namespace weft

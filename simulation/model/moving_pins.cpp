@@ -1,0 +1,53 @@
+#include "simulation/model/moving_pins.h"
+
+#include <algorithm>
+
+#include "kernels/motion.h"
+#include "simulation/model/convert.h"
+
+namespace weft {
+
+MovingPins::MovingPins(std::vector<Group> groups, const Strips& strips, int substeps)
+    : groups_(std::move(groups)),
+      substeps_(substeps),
+      motions_("pins.motions", static_cast<std::size_t>(substeps) * groups_.size() * 3) {
+    for (const Group& group : groups_) {
+        const std::size_t count = group.vertices.size();
+        auto table = std::unique_ptr<Table>(
+            new Table{{"pins.vertices", count}, {"pins.rest", count},
+                      {"pins.segments", strips.begin.size()}, {}});
+        for (std::size_t i = 0; i < count; ++i) {
+            table->vertices[i] = group.vertices[i];
+            table->rest[i] = to_float4(group.rest[i]);
+        }
+        for (std::size_t s = 0; s < strips.begin.size(); ++s) {
+            const auto first = std::lower_bound(group.vertices.begin(), group.vertices.end(),
+                                                strips.begin[s]);
+            table->segment_begin[s] = static_cast<int>(first - group.vertices.begin());
+        }
+        table->segments = {&table->segment_begin, 0, 1, strips.count()};
+        tables_.push_back(std::move(table));
+    }
+}
+
+void MovingPins::place(double time, double h) {
+    float4* rows = motions_.data();
+    for (int substep = 0; substep < substeps_; ++substep) {
+        for (const Group& group : groups_) {
+            const Frame map = group.motion.displacement(time + (substep + 1) * h);
+            const double t[3] = {map.origin.x, map.origin.y, map.origin.z};
+            for (std::size_t k = 0; k < 3; ++k) *rows++ = to_float4(map.axes.rows[k], t[k]);
+        }
+    }
+}
+
+void MovingPins::add_launches(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    const int count = static_cast<int>(groups_.size());
+    for (int g = 0; g < count; ++g) {
+        Table& table = *tables_[static_cast<std::size_t>(g)];
+        launches.push_back(launch(kernels::move_pins, table.segments, positions, table.vertices,
+                                  table.rest, motions_, count, g, kInstance));
+    }
+}
+
+}  // namespace weft

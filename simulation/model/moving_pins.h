@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/launch.h"
+#include "simulation/scene/motion.h"
+#include "simulation/topology/strips.h"
+
+namespace weft {
+
+/// Pinned vertices that are carried along by a motion. Pins that stay need nothing of this.
+class MovingPins {
+public:
+    struct Group {
+        std::vector<int> vertices;  ///< new vertices, ascending
+        std::vector<Vec3> rest;     ///< where they are at time 0
+        Motion motion;
+    };
+    MovingPins(std::vector<Group> groups, const Strips& strips, int substeps);
+
+    /// Fills in the frame that begins at `time` and has substeps of h [s].
+    void place(double time, double h);
+    Buffer<float4>& motions() { return motions_; }
+    void add_launches(std::vector<Launch>& launches, Buffer<float4>& positions);
+
+private:
+    struct Table {
+        Buffer<int> vertices;
+        Buffer<float4> rest;
+        Buffer<int> segment_begin;  ///< [strips + 1]
+        Segments segments;
+    };
+    std::vector<Group> groups_;
+    std::vector<std::unique_ptr<Table>> tables_;  ///< [group]
+    int substeps_;
+    Buffer<float4> motions_;  ///< [substep][group][3 rows]
+};
+
+}  // namespace weft

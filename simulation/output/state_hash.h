@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace weft {
+
+/// 128-bit hash of a state, as 32 hex digits: equal states of any two machines, devices or plans
+/// have equal hashes, and one different bit makes another hash. It is no defence against forgery.
+///
+/// positions, velocities  [3 * vertices] float32 in the scene's own vertex order. What counts is
+/// the bits: -0.0 and 0.0 differ.
+///
+/// Definition: two 64-bit lanes take the words (uint32) of the vertex count, all positions, all
+/// velocities, each by the step of FNV-1a and a rotation; they start from different values, and
+/// each ends in the mixing of SplitMix64.
+std::string state_hash(std::span<const float> positions, std::span<const float> velocities);
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/trace/records.h"
+
+namespace weft {
+
+/// What a run says at its end, on the terminal and in summary.json.
+struct RunSummary {
+    struct Device {
+        std::string name;
+        std::string kind;
+        std::uint32_t units = 0;
+        double busy = 0.0;         ///< time spent in tasks, all frames [s]
+        double utilisation = 0.0;  ///< busy / measured makespan of all frames
+    };
+
+    std::string scene;
+    std::size_t frames = 0;
+    double simulated_time = 0.0;     ///< [s]
+    double wall_time = 0.0;          ///< from the first frame's start to the last one's end [s]
+    double frame_median = 0.0;       ///< time per frame, all included [s]
+    double frame_p95 = 0.0;          ///< [s]
+    double planned_makespan = 0.0;   ///< median over frames [s]
+    double measured_makespan = 0.0;  ///< median over frames [s]
+    double plan_error = 0.0;         ///< median |measured - planned| / planned
+    double lower_bound = 0.0;        ///< median over frames [s]
+    double plan_time = 0.0;          ///< median over frames [s]
+    std::uint64_t transferred_bytes = 0;  ///< all frames
+    double utilisation = 0.0;             ///< mean over devices
+    std::vector<Device> devices;
+    std::vector<std::pair<std::string, double>> energies;  ///< at the end [J]; the last is "total"
+    bool finished = false;   ///< all frames of the scene are done
+    std::string state_hash;  ///< after the last frame; empty: not known
+    std::vector<std::pair<std::string, std::string>> files;  ///< what, and its path
+};
+
+/// Gathers a summary frame by frame; keeps a few numbers of each.
+class SummaryBuilder {
+public:
+    explicit SummaryBuilder(const RunDescription& run);
+
+    void add(const FrameRecord& frame);
+
+    /// The summary so far; state_hash and files are the caller's to fill.
+    RunSummary summary() const;
+
+private:
+    RunSummary summary_;
+    std::vector<std::string> energy_names_;
+    double first_start_ = 0.0;
+    double all_makespans_ = 0.0;
+    std::vector<double> frame_times_;
+    std::vector<double> planned_;
+    std::vector<double> measured_;
+    std::vector<double> errors_;
+    std::vector<double> bounds_;
+    std::vector<double> plan_times_;
+};
+
+nlohmann::ordered_json to_json(const RunSummary& summary);
+std::string to_text(const RunSummary& summary);
+
+/// Writes summary.json as a whole or not at all. Throws RunError.
+void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+}  // namespace weft

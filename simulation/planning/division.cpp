@@ -1,0 +1,68 @@
+#include "simulation/planning/division.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace weft {
+
+Division Division::single(int device_count, int strip_count, int device) {
+    Division division{std::vector<int>(static_cast<std::size_t>(device_count), 0)};
+    division.strips[static_cast<std::size_t>(device)] = strip_count;
+    return division;
+}
+
+Division Division::proportional(int strip_count, std::span<const double> speeds) {
+    const double all = std::accumulate(speeds.begin(), speeds.end(), 0.0);
+    Division division;
+    double before = 0.0;
+    int given = 0;
+    for (std::size_t d = 0; d < speeds.size(); ++d) {
+        before += speeds[d];
+        const int later = static_cast<int>(speeds.size() - d) - 1;  // devices that still want one
+        int end = static_cast<int>(std::lround(before / all * strip_count));
+        end = std::max(std::min(end, strip_count - later), std::min(given + 1, strip_count));
+        division.strips.push_back(end - given);
+        given = end;
+    }
+    return division;
+}
+
+std::vector<int> Division::devices() const {
+    std::vector<int> list;
+    for (std::size_t d = 0; d < strips.size(); ++d) {
+        if (strips[d] > 0) list.push_back(static_cast<int>(d));
+    }
+    return list;
+}
+
+std::vector<int> Division::cuts() const {
+    std::vector<int> cuts;
+    int end = 0;
+    for (const int device : devices()) {
+        if (end > 0) cuts.push_back(end);
+        end += strips[static_cast<std::size_t>(device)];
+    }
+    return cuts;
+}
+
+unsigned Division::mask() const {
+    unsigned mask = 0;
+    for (const int device : devices()) mask |= 1U << device;
+    return mask;
+}
+
+std::vector<Division> Division::neighbours() const {
+    std::vector<Division> list;
+    for (std::size_t d = 0; d + 1 < strips.size(); ++d) {
+        for (const int moved : {-1, 1}) {
+            Division other = *this;
+            other.strips[d] += moved;
+            other.strips[d + 1] -= moved;
+            if (other.strips[d] >= 0 && other.strips[d + 1] >= 0) list.push_back(std::move(other));
+        }
+    }
+    return list;
+}
+
+}  // namespace weft

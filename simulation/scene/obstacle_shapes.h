@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/scene/document.h"
+#include "simulation/scene/keys.h"
+#include "simulation/scene/scene.h"
+
+namespace weft {
+
+/// One obstacle shape as scenes know it: its name, its keys, and how they become a frame and
+/// dimensions. A new shape is one entry in obstacle_shapes.cpp (and its distance in the kernels).
+struct ObstacleShape {
+    std::string name;
+    std::vector<Key> keys;
+    /// Sets `frame` and `dimensions` from the checked table. Throws UserError.
+    void (*read)(const Node& table, Obstacle& obstacle);
+};
+
+const std::vector<ObstacleShape>& obstacle_shapes();
+
+}  // namespace weft

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "simulation/mesh/vec3.h"
+#include "simulation/scene/motion.h"
+
+/// A whole scene as plain data. docs/scenes.md says what each value means to its author;
+/// simulation/scene/keys.cpp is the one table of keys, ranges and defaults behind it.
+///
+/// SI units, y up. Whatever a scene does not name is absent here (empty optional or vector), and a
+/// value that does nothing (damping 0, bend stiffness 0, friction 0, a motion at rest) counts as
+/// not named: the program makes no task, kernel, buffer or dataset for what is absent.
+namespace weft {
+
+enum class Method { kXpbd, kVbd, kSosd, kJpgd };
+
+/// [solver]
+struct SolverSettings {
+    Method method = Method::kXpbd;
+    int iterations = 8;  ///< per substep, >= 1
+};
+
+/// A flat sheet in the x-z plane, its centre at the origin. Vertex (i, k) has index
+/// k * resolution[0] + i. Corner names: "x-z-", "x+z-", "x-z+", "x+z+".
+struct GridShape {
+    std::array<double, 2> size{};     ///< [m] along x and z
+    std::array<int, 2> resolution{};  ///< vertices along x and z, >= 2
+};
+
+/// The open side of a cone around the y axis, its middle at the origin: the rough form of a skirt.
+/// Vertex (i, k) has index k * resolution[0] + i; row k = 0 is the top rim.
+struct CylinderShape {
+    std::array<double, 2> radius{};   ///< [m] at the top and at the bottom
+    double height = 0.0;              ///< [m]
+    std::array<int, 2> resolution{};  ///< vertices around (>= 3) and from top to bottom (>= 2)
+};
+
+/// A Wavefront OBJ file.
+struct MeshFile {
+    std::string path;  ///< already joined to the scene's folder
+};
+
+struct Rotation {
+    Vec3 axis;
+    double degrees = 0.0;
+};
+
+/// Applied in this order: scale, the rotations one after the other, translate.
+struct Transform {
+    Vec3 scale{1.0, 1.0, 1.0};
+    std::vector<Rotation> rotations;
+    Vec3 translate;
+};
+
+/// Springs along the edges of the triangles.
+struct Stretch {
+    double stiffness = 0.0;  ///< per edge [N/m], > 0
+};
+
+/// Quadratic bending over every edge between two triangles.
+struct Bend {
+    double stiffness = 0.0;  ///< [J], > 0
+};
+
+/// Axis-aligned box in world coordinates at time 0.
+struct Box3 {
+    Vec3 low;
+    Vec3 high;
+};
+
+/// Vertices held in place, or carried along one motion. A vertex is in the group if any of the
+/// selections names it. See pinned_vertices() in cloth_mesh.h.
+struct PinGroup {
+    std::vector<std::string> corners;  ///< of a grid
+    std::vector<std::string> rims;     ///< of a cylinder: "top", "bottom"
+    std::vector<int> vertices;
+    std::vector<Box3> boxes;
+    std::optional<Motion> motion;  ///< absent: held still
+    std::string where;             ///< "file:line:column", for messages
+};
+
+/// [[cloth]]
+struct Cloth {
+    std::string name;  ///< unique in its scene
+    std::variant<GridShape, CylinderShape, MeshFile> shape;
+    Transform transform;
+    double density = 0.0;  ///< [kg/m^2], > 0
+    Stretch stretch;
+    std::optional<Bend> bend;
+    std::optional<double> damping;  ///< of velocities [1/s], > 0
+    std::vector<PinGroup> pins;
+    std::string where;  ///< "file:line:column", for messages
+};
+
+/// [[obstacle]]: a rigid body that moves as it is told and pushes cloth out.
+///
+/// Every shape lives in its own local frame, so that a kernel for it is one signed distance:
+///   sphere   dimensions = {radius}, around the origin
+///   plane    dimensions = {}, solid below local y = 0
+///   capsule  dimensions = {radius, half length of the axis}, along local y
+///   box      dimensions = {half width x, y, z}, around the origin
+/// obstacle_shapes.h is the list of shapes.
+struct Obstacle {
+    std::string name;                    ///< unique in its scene
+    std::string shape;                   ///< "sphere", "plane", "capsule", "box"
+    std::array<double, 4> dimensions{};  ///< [m]
+    Frame frame;                         ///< local to world at time 0
+    std::optional<double> friction;      ///< Coulomb coefficient, > 0
+    double thickness = 0.0;              ///< [m] cloth keeps this distance, >= 0
+    std::optional<Motion> motion;
+
+    /// Local to world at `time` [s].
+    Frame frame_at(double time) const { return moved(frame, motion, time); }
+};
+
+/// [guard]: beyond either bound a state counts as exploded, and the run stops.
+struct Guard {
+    double max_speed = 1000.0;  ///< [m/s] of any vertex
+    double max_strain = 100.0;  ///< of any edge: |length / rest length - 1|
+};
+
+/// Gravity at one time; linear between keys, held before the first and after the last.
+struct GravityKey {
+    double time = 0.0;  ///< [s]
+    Vec3 gravity;       ///< [m/s^2]
+};
+
+struct Scene {
+    // [scene]
+    std::string name;
+    int frames = 0;                        ///< >= 1
+    double dt = 0.0;                       ///< one frame [s], > 0
+    int substeps = 1;                      ///< per frame, >= 1
+    Vec3 gravity;                          ///< [m/s^2]; not used where gravity_keys is not empty
+    std::vector<GravityKey> gravity_keys;  ///< by rising time; empty: constant gravity
+
+    SolverSettings solver;
+    Guard guard;
+    std::vector<Cloth> cloths;
+    std::vector<Obstacle> obstacles;
+
+    // Where it came from, for traces and replays.
+    std::string path;                    ///< as given; empty for a scene read from a string
+    std::string text;                    ///< the file's own words
+    std::vector<std::string> overrides;  ///< "table.key=value", in the order applied
+
+    Vec3 gravity_at(double time) const;
+};
+
+}  // namespace weft

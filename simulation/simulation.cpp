@@ -1,0 +1,223 @@
+#include "simulation/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/error.h"
+#include "runtime/tbb/cpu_device.h"
+#include "simulation/diagnostics.h"
+#include "simulation/output/state_hash.h"
+
+namespace weft {
+
+namespace {
+
+std::vector<Device*> pointers(const std::vector<std::unique_ptr<Device>>& devices) {
+    std::vector<Device*> list;
+    for (const auto& device : devices) list.push_back(device.get());
+    return list;
+}
+
+/// xyz of a buffer in scene order.
+std::vector<float> in_scene_order(const Model& model, const Buffer<float4>& buffer) {
+    std::vector<float> values(3 * buffer.count());
+    for (std::size_t v = 0; v < buffer.count(); ++v) {
+        float* to = &values[3 * static_cast<std::size_t>(model.strips.order[v])];
+        to[0] = buffer[v].x;
+        to[1] = buffer[v].y;
+        to[2] = buffer[v].z;
+    }
+    return values;
+}
+
+std::uint32_t u32(int value) { return static_cast<std::uint32_t>(value); }
+
+/// All tasks on processor 0, one after the other.
+scheduler::Plan serial_plan(std::size_t task_count) {
+    scheduler::Plan plan;
+    for (std::size_t t = 0; t < task_count; ++t) {
+        plan.placements.push_back({static_cast<double>(t), static_cast<double>(t + 1), 0});
+    }
+    return plan;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene, const SimulationOptions& options, Warnings& warnings)
+    : devices_(open_devices(options.devices, options.device_options)),
+      model_(std::make_unique<Model>(scene, warnings)),
+      solver_(make_solver(*model_)) {
+    place();
+    const auto bodies = solver_->bodies();
+    executor_ = std::make_unique<Executor>(pointers(devices_), bodies);
+    planner_ = std::make_unique<FramePlanner>(*solver_, model_->strips.count(), pointers(devices_),
+                                              options.plan, options.division);
+    calibrate();
+}
+
+Simulation::State Simulation::save() const {
+    const auto copy = [](const Buffer<float4>& buffer) {
+        return std::vector<float4>(buffer.data(), buffer.data() + buffer.count());
+    };
+    return {copy(*model_->positions), copy(*model_->velocities)};
+}
+
+void Simulation::restore(const State& state) {
+    std::copy(state.positions.begin(), state.positions.end(), model_->positions->data());
+    std::copy(state.velocities.begin(), state.velocities.end(), model_->velocities->data());
+    executor_->host_wrote(*model_->positions);
+    executor_->host_wrote(*model_->velocities);
+}
+
+void Simulation::place() {
+    model_->place(frame_time());
+    if (!executor_) return;
+    for (BufferStorage* buffer : model_->placed_buffers()) executor_->host_wrote(*buffer);
+}
+
+void Simulation::fetch() {
+    executor_->fetch(*model_->positions);
+    executor_->fetch(*model_->velocities);
+}
+
+/// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards.
+void Simulation::calibrate() {
+    const State start = save();
+    const int instances = std::min(model_->scene.substeps, 2);
+    constexpr int kRounds = 2;  // the first compiles, loads and pages in
+    for (int round = 0; round < kRounds; ++round) {
+        for (const FramePlan& plan : planner_->calibration()) {
+            planner_->learn(plan, executor_->run(*plan.step, plan.plan, instances), instances);
+            restore(start);
+        }
+    }
+}
+
+FrameRecord Simulation::advance() {
+    const State start = save();
+    place();
+    const FramePlan& plan = planner_->next();
+    const int substeps = model_->scene.substeps;
+    const RunTimes times = executor_->run(*plan.step, plan.plan, substeps);
+    fetch();
+    if (find_bad_state(*model_)) diagnose(start);
+    FrameRecord frame = record(plan, times);
+    planner_->learn(plan, times, substeps);
+    ++frame_;
+    return frame;
+}
+
+FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) const {
+    const int substeps = model_->scene.substeps;
+    FrameRecord frame;
+    frame.frame = u32(frame_);
+    frame.sim_time = frame_time() + model_->scene.dt;
+    frame.start = times.start - plan.plan_time;
+    frame.end = times.end;
+    frame.planned_makespan = plan.substep_time * substeps;
+    frame.measured_makespan = times.end - times.start;
+    frame.lower_bound = plan.plan.lower_bound() * substeps;
+    frame.plan_time = plan.plan_time;
+
+    const auto& tasks = plan.step->tasks();
+    for (std::size_t d = 0; d < devices_.size(); ++d) {
+        double busy = 0.0;
+        for (const TaskTime& t : times.tasks[d]) {
+            busy += t.end - t.start;
+            const auto items = static_cast<std::uint64_t>(tasks[static_cast<std::size_t>(t.task)].items);
+            frame.executions.push_back({u32(t.instance), u32(t.task), static_cast<std::uint32_t>(d),
+                                        items, t.start, t.end});
+        }
+        frame.busy.push_back(busy);
+        std::uint32_t order = 0;
+        for (const scheduler::TaskId id : plan.plan.tasks_on(static_cast<std::uint32_t>(d))) {
+            const Task& task = tasks[id];
+            const auto& placed = plan.plan.placements[id];
+            frame.plan.push_back({id, u32(task.body->kind), u32(task.iteration),
+                                  u32(task.first_strip), u32(task.end_strip - task.first_strip),
+                                  static_cast<std::uint32_t>(d), order++,
+                                  static_cast<std::uint64_t>(task.items), placed.start, placed.end});
+        }
+    }
+    const auto& costs = planner_->costs();
+    for (std::uint32_t kind = 0; kind < costs.kinds(); ++kind) {
+        for (std::uint32_t d = 0; d < costs.devices(); ++d) {
+            const auto& fit = costs.fit(kind, d);
+            frame.costs.push_back({kind, d, fit.cost.fixed, fit.cost.per_item, fit.frames});
+        }
+    }
+    for (const CopyRecord& copy : times.copies) {
+        frame.transferred_bytes += copy.bytes;
+        frame.transfers.push_back({u32(copy.instance), u32(copy.task), u32(copy.from), u32(copy.to),
+                                   copy.bytes, copy.start, copy.end});
+    }
+
+    const Energies energies = measure_energies(*model_, frame.sim_time);
+    frame.kinetic_energy = energies.kinetic;
+    frame.gravity_energy = energies.gravity;
+    frame.energies = energies.elements;
+    return frame;
+}
+
+void Simulation::diagnose(const State& start) {
+    // The same bits on every device: so this finds what happened there.
+    restore(start);
+    executor_.reset();
+    const auto device = make_cpu_device(1, {});
+    const auto bodies = solver_->bodies();
+    Executor executor({device.get()}, bodies);
+    const Step step = solver_->make_step({});
+    const auto fail = [&](int substep, const Task* task, const BadState& bad) {
+        const std::string where = task == nullptr ? std::string("at its end")
+                                                  : fmt::format("task '{}', iteration {}",
+                                                                task->body->name, task->iteration);
+        return RunError(fmt::format(
+            "the simulation diverged in frame {}, substep {}, {}: {}: {}; smaller time steps (more "
+            "substeps) or softer materials may help",
+            frame_, substep, where, vertex_name(*model_, bad.vertex), bad.what));
+    };
+    for (int substep = 0; substep < model_->scene.substeps; ++substep) {
+        for (const Task& task : step.tasks()) {
+            Step one;
+            one.add(task);
+            executor.run(one, serial_plan(1), 1, substep);
+            if (const auto bad = find_non_finite(*model_)) throw fail(substep, &task, *bad);
+        }
+        if (const auto bad = find_bad_state(*model_)) throw fail(substep, nullptr, *bad);
+    }
+    throw RunError(fmt::format("the simulation diverged in frame {}", frame_));
+}
+
+RunDescription Simulation::describe() const {
+    const Scene& scene = model_->scene;
+    RunDescription run;
+    run.scene_name = scene.name;
+    run.scene_text = scene.text;
+    run.settings = {{"method", "xpbd"},
+                    {"frames", std::to_string(scene.frames)},
+                    {"dt", fmt::format("{}", scene.dt)},
+                    {"substeps", std::to_string(scene.substeps)},
+                    {"iterations", std::to_string(scene.solver.iterations)},
+                    {"vertices", std::to_string(model_->vertex_count())},
+                    {"strips", std::to_string(model_->strips.count())}};
+    for (const std::string& change : scene.overrides) run.settings.emplace_back("set", change);
+    for (const auto& device : devices_) {
+        const DeviceInfo& info = device->info();
+        const bool host = info.memory == MemoryModel::kHost;
+        run.devices.push_back({info.name, info.kind, info.driver, u32(info.units),
+                               std::string(name_of(info.memory)), info.strict});
+        if (!host && devices_.size() > 1) run.has_transfers = true;
+    }
+    run.kinds = solver_->kinds();
+    run.energies = energy_names(*model_);
+    return run;
+}
+
+std::vector<float> Simulation::positions() const { return in_scene_order(*model_, *model_->positions); }
+std::vector<float> Simulation::velocities() const {
+    return in_scene_order(*model_, *model_->velocities);
+}
+std::string Simulation::hash() const { return state_hash(positions(), velocities()); }
+
+}  // namespace weft

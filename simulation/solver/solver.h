@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/step.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// A way to advance a model by one substep, as tasks. It says what there is to do and in which order
+/// the results are defined; which device does what is the planner's business.
+class Solver {
+public:
+    virtual ~Solver() = default;
+
+    /// Every body that steps are made of.
+    virtual std::vector<const TaskBody*> bodies() const = 0;
+    /// Names of the task kinds; TaskBody::kind is an index into it.
+    virtual std::vector<std::string> kinds() const = 0;
+    /// Its own buffers, besides the model's.
+    virtual std::vector<const BufferStorage*> buffers() const = 0;
+
+    /// The task graph of one substep, with the strips divided into regions at the cuts.
+    /// cuts: ascending strips in [1, strip count); region r lies between cuts r - 1 and r.
+    virtual Step make_step(std::span<const int> cuts) = 0;
+};
+
+/// Throws UserError for a method that this version does not have.
+std::unique_ptr<Solver> make_solver(Model& model);
+
+}  // namespace weft

@@ -1,0 +1,226 @@
+// What the paper adds to HEFT: merging, the Gauss-Seidel rank, grouping; and re-planning.
+
+#include <gtest/gtest.h>
+
+#include "graphs.h"
+#include "scheduler/grouping.h"
+#include "scheduler/heft.h"
+#include "scheduler/merging.h"
+#include "scheduler/ranks.h"
+#include "scheduler/replan.h"
+
+namespace weft::scheduler::test {
+namespace {
+
+constexpr ProcessorId kCpu = 0, kGpu = 1;
+
+/// Figure 3 of the paper: after a task on the CPU a chain of small bending tasks, t1 each on the
+/// GPU and t2 > t1 on the CPU. A change of device costs tc, more than one task gains by it.
+struct Figure3 {
+    double t1 = 1.0, t2 = 2.0, tc = 2.5;
+    TaskGraph graph{2};
+
+    Figure3() {
+        graph.set_links(tc, kCannotRun);  // a fixed delay, as in unified memory
+        TaskId before = graph.add_task(std::vector{0.0, kCannotRun});
+        for (int i = 0; i < 8; ++i) {
+            const TaskId bend = graph.add_task(std::vector{t2, t1}, {.kind = 1, .iteration = 0});
+            graph.add_edge(before, bend, 1.0);
+            before = bend;
+        }
+        graph.seal();
+    }
+};
+
+TEST(Merging, Figure3) {
+    const Figure3 figure;
+    Heft heft;
+    Plan plan;
+    heft.plan(figure.graph, plan);
+    EXPECT_EQ(plan.makespan, 8 * figure.t2);  // the GPU idles
+
+    TaskMerger merger;
+    TaskGraph merged;
+    merger.merge(figure.graph, 4 * figure.graph.mean_cost(1), merged);
+    ASSERT_EQ(merged.task_count(), 3u);
+    EXPECT_EQ(merger.tasks_of(1).size(), 4u);
+    EXPECT_EQ(merger.tasks_of(2).size(), 4u);
+    EXPECT_EQ(merged.cost(1, kGpu), 4 * figure.t1);
+    heft.plan(merged, plan);
+    EXPECT_EQ(plan.makespan, figure.tc + 8 * figure.t1);
+    EXPECT_EQ(plan.placements[1].processor, kGpu);
+    EXPECT_EQ(plan.placements[2].processor, kGpu);
+}
+
+TEST(Merging, KeepsApartWhatDiffers) {
+    TaskGraph graph(2);
+    const std::vector both{1.0, 1.0}, cpu_only{1.0, kCannotRun};
+    graph.add_task(both, {.kind = 1, .iteration = 0});
+    graph.add_task(both, {.kind = 1, .iteration = 1});      // another iteration
+    graph.add_task(both, {.kind = 2, .iteration = 1});      // another kind
+    graph.add_task(cpu_only, {.kind = 2, .iteration = 1});  // another set of processors
+    graph.add_task(both);                                   // no kind
+    graph.add_task(both);
+    for (TaskId t = 0; t < 5; ++t) graph.add_edge(t, t + 1, 1.0);
+    graph.seal();
+    TaskMerger merger;
+    TaskGraph merged;
+    merger.merge(graph, 100.0, merged);
+    EXPECT_EQ(merged.task_count(), graph.task_count());
+}
+
+TEST(Merging, MakesNoCycleAndLosesNothing) {
+    TaskMerger merger;
+    TaskGraph merged;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        const TaskGraph source = random_graph({.tasks = 40, .shuffled = true}, seed);
+        TaskGraph graph(source.processor_count());
+        for (TaskId t = 0; t < source.task_count(); ++t) {
+            graph.add_task(source.costs(t), {.kind = static_cast<std::int32_t>(t % 3)});
+        }
+        for (TaskId t = 0; t < source.task_count(); ++t) {
+            for (const Arc& arc : source.successors(t)) graph.add_edge(t, arc.task, arc.data);
+        }
+        graph.seal();
+        merger.merge(graph, 50.0, merged);  // seal() would find a cycle
+        double before = 0.0, after = 0.0;
+        for (TaskId t = 0; t < graph.task_count(); ++t) before += graph.cost(t, 0);
+        for (TaskId t = 0; t < merged.task_count(); ++t) after += merged.cost(t, 0);
+        EXPECT_NEAR(before, after, 1e-9 * before);
+        EXPECT_LT(merged.task_count(), graph.task_count());
+    }
+}
+
+/// Two kinds of tasks per iteration that only depend on their like of the iteration before, so that
+/// iterations may overlap.
+TaskGraph two_chains(int iterations) {
+    TaskGraph graph(2);
+    for (int i = 0; i < iterations; ++i) {
+        graph.add_task(std::vector{5.0, 4.0}, {.kind = 0, .iteration = i});
+        graph.add_task(std::vector{1.0, 1.0}, {.kind = 1, .iteration = i});
+        const TaskId t = graph.task_count();
+        if (i == 0) continue;
+        graph.add_edge(t - 4, t - 2, 0.5);
+        graph.add_edge(t - 3, t - 1, 0.5);
+    }
+    graph.seal();
+    return graph;
+}
+
+TEST(GaussSeidelRank, LaterIterationsHaveSmallerRanks) {
+    const TaskGraph graph = two_chains(4);
+    std::vector<double> rank;
+    upward_rank(graph, rank);
+    EXPECT_GT(rank[2], rank[1]);  // the long chain overtakes the short one
+    GaussSeidelRank()(graph, rank);
+    for (TaskId t = 1; t < graph.task_count(); ++t) EXPECT_GT(rank[t - 1], rank[t]);
+    Plan plan;
+    Heft(Heft::Rank::kGaussSeidel).plan(graph, plan);
+    EXPECT_EQ(complaint(graph, plan), "");
+}
+
+TEST(GaussSeidelRank, OtherTasksKeepTheirPlace) {
+    TaskGraph graph(2);
+    graph.add_task(std::vector{1.0, 1.0});  // before the iterations
+    graph.add_task(std::vector{2.0, 2.0}, {.iteration = 1});
+    graph.add_task(std::vector{3.0, 3.0}, {.iteration = 0});
+    graph.add_task(std::vector{4.0, 4.0});  // after them
+    graph.add_edge(0, 1, 1.0);
+    graph.add_edge(0, 2, 1.0);
+    graph.add_edge(1, 3, 1.0);
+    graph.seal();
+    std::vector<double> rank;
+    GaussSeidelRank()(graph, rank);
+    EXPECT_EQ(rank[3], 4.0);
+    EXPECT_EQ(rank[1], 4.0 + 1.0 + 2.0);
+    EXPECT_EQ(rank[2], rank[1] + 3.0);  // next in sequence, no communication
+    EXPECT_EQ(rank[0], rank[2] + 1.0 + 1.0);
+}
+
+TEST(GaussSeidelRank, RefusesIterationsThatGoBack) {
+    TaskGraph graph(1);
+    graph.add_task(std::vector{1.0}, {.iteration = 1});
+    graph.add_task(std::vector{1.0}, {.iteration = 0});
+    graph.add_edge(0, 1, 0.0);
+    graph.seal();
+    std::vector<double> rank;
+    EXPECT_THROW(GaussSeidelRank()(graph, rank), GraphError);
+}
+
+TEST(Grouping, CutsWhereAnotherProcessorWaitsOrIsWaitedFor) {
+    TaskGraph graph(2);
+    const std::vector cpu{1.0, kCannotRun}, gpu{kCannotRun, 1.0};
+    for (int i = 0; i < 5; ++i) graph.add_task(cpu);
+    graph.add_task(gpu);
+    for (TaskId t = 0; t < 4; ++t) graph.add_edge(t, t + 1, 0.0);
+    graph.add_edge(1, 5, 2.0);  // the GPU waits for the second task ...
+    graph.add_edge(5, 4, 2.0);  // ... and the last task for the GPU
+    graph.seal();
+    Plan plan;
+    Heft().plan(graph, plan);
+    TaskGrouping grouping;
+    grouping.group(graph, plan);
+    ASSERT_EQ(grouping.groups().size(), 4u);  // {0 1} {2 3} {4} on the CPU, {5} on the GPU
+    EXPECT_EQ(grouping.group_of()[0], grouping.group_of()[1]);
+    EXPECT_EQ(grouping.group_of()[2], grouping.group_of()[3]);
+    EXPECT_NE(grouping.group_of()[3], grouping.group_of()[4]);
+    EXPECT_EQ(grouping.makespan(), plan.makespan);
+
+    // 2 tasks and 2 launches before the GPU, and so on along the path that waits for it.
+    const std::vector launch{0.25, 0.5};
+    grouping.group(graph, plan, launch);
+    EXPECT_EQ(grouping.makespan(), (0.25 + 2.0) + 2.0 + (0.5 + 1.0) + 2.0 + (0.25 + 1.0));
+}
+
+TEST(Grouping, PredictsThePlansOwnTimesWithoutLaunches) {
+    TaskGrouping grouping;
+    Plan plan;
+    Heft heft;
+    for (std::uint32_t seed = 0; seed < 100; ++seed) {
+        const TaskGraph graph =
+            random_graph({.tasks = 30, .processors = 3, .integers = true, .zero_share = 0.3}, seed);
+        heft.plan(graph, plan);
+        grouping.group(graph, plan);
+        EXPECT_EQ(grouping.makespan(), plan.makespan) << seed;
+        std::size_t tasks = 0;
+        for (const TaskGroup& group : grouping.groups()) tasks += group.end - group.begin;
+        EXPECT_EQ(tasks, graph.task_count());
+    }
+}
+
+TEST(Replan, LeavesOutWhatIsDoneAndTheLostProcessor) {
+    const TaskGraph graph = random_graph({.tasks = 20, .processors = 3}, 4);
+    Plan plan;
+    Heft heft;
+    heft.plan(graph, plan);
+    std::vector<bool> done(graph.task_count());
+    for (TaskId t = 0; t < graph.task_count(); ++t) {
+        done[t] = plan.placements[t].end <= 0.5 * plan.makespan;
+    }
+    TaskGraph left;
+    std::vector<TaskId> original_of;
+    remaining_graph(graph, done, 1, left, original_of);
+    ASSERT_EQ(left.task_count(), original_of.size());
+    heft.plan(left, plan);
+    EXPECT_EQ(complaint(left, plan), "");
+    for (TaskId t = 0; t < left.task_count(); ++t) {
+        EXPECT_NE(plan.placements[t].processor, 1u);
+        EXPECT_FALSE(done[original_of[t]]);
+    }
+}
+
+TEST(Replan, SaysWhichTaskNobodyElseCanRun) {
+    TaskGraph graph(2), left;
+    graph.add_task(std::vector{1.0, kCannotRun}, {.name = "collide"});
+    graph.seal();
+    std::vector<TaskId> original_of;
+    try {
+        remaining_graph(graph, {false}, 0, left, original_of);
+        FAIL();
+    } catch (const GraphError& error) {
+        EXPECT_STREQ(error.what(), "task collide: no processor can run it");
+    }
+}
+
+}  // namespace
+}  // namespace weft::scheduler::test

@@ -1,0 +1,140 @@
+#include "simulation/scene/read_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "scene_text.h"
+
+namespace weft {
+namespace {
+
+TEST(ReadScene, ReadsEveryPart) {
+    const Scene scene = parse_scene(test::kFullScene, "dir/full.toml");
+    EXPECT_EQ(scene.name, "full");
+    EXPECT_EQ(scene.frames, 3);
+    EXPECT_EQ(scene.dt, 0.02);
+    EXPECT_EQ(scene.substeps, 2);
+    EXPECT_EQ(scene.gravity, (Vec3{0.0, -9.81, 0.0}));
+    EXPECT_EQ(scene.solver.iterations, 4);
+    EXPECT_EQ(scene.guard.max_speed, 500.0);
+    EXPECT_EQ(scene.guard.max_strain, Guard{}.max_strain);
+    EXPECT_EQ(scene.text, test::kFullScene);
+    ASSERT_EQ(scene.cloths.size(), 2U);
+    ASSERT_EQ(scene.obstacles.size(), 4U);
+}
+
+TEST(ReadScene, ReadsCloth) {
+    const Scene scene = parse_scene(test::kFullScene, "full.toml");
+    const Cloth& sheet = scene.cloths[0];
+    EXPECT_EQ(std::get<GridShape>(sheet.shape).resolution, (std::array{5, 9}));
+    EXPECT_EQ(sheet.transform.scale, (Vec3{0.5, 0.5, 0.5}));
+    ASSERT_EQ(sheet.transform.rotations.size(), 1U);
+    EXPECT_EQ(sheet.transform.rotations[0].degrees, 90.0);
+    EXPECT_EQ(sheet.stretch.stiffness, 1e4);
+    ASSERT_TRUE(sheet.bend);
+    EXPECT_EQ(sheet.bend->stiffness, 1e-4);
+    EXPECT_EQ(sheet.damping, 0.5);
+    ASSERT_EQ(sheet.pins.size(), 1U);
+    EXPECT_EQ(sheet.pins[0].corners.size(), 2U);
+
+    const Cloth& tube = scene.cloths[1];
+    EXPECT_EQ(std::get<CylinderShape>(tube.shape).radius, (std::array{0.2, 0.4}));
+    ASSERT_EQ(tube.pins.size(), 2U);
+    ASSERT_TRUE(tube.pins[0].motion);
+    EXPECT_EQ(tube.pins[0].motion->keys.size(), 2U);
+    EXPECT_FALSE(tube.pins[1].motion);
+}
+
+TEST(ReadScene, WhatIsNotNamedIsAbsent) {
+    const Scene scene = parse_scene(test::kSmallScene, "dir/small.toml");
+    EXPECT_EQ(scene.name, "small");
+    EXPECT_EQ(scene.substeps, 1);
+    EXPECT_EQ(scene.gravity, (Vec3{0.0, -9.81, 0.0}));
+    EXPECT_TRUE(scene.gravity_keys.empty());
+    EXPECT_TRUE(scene.obstacles.empty());
+    ASSERT_EQ(scene.cloths.size(), 1U);
+    EXPECT_EQ(scene.cloths[0].name, "cloth0");
+    EXPECT_FALSE(scene.cloths[0].bend);
+    EXPECT_FALSE(scene.cloths[0].damping);
+    EXPECT_TRUE(scene.cloths[0].pins.empty());
+}
+
+TEST(ReadScene, WhatDoesNothingIsAbsent) {
+    const Scene scene = parse_scene(test::kSmallScene + R"(
+bend.stiffness = 0.0
+damping = 0
+pins = { corners = [] }
+[[obstacle]]
+shape = "sphere"
+center = [0, 0, 0]
+radius = 1
+friction = 0
+motion = { velocity = [0.0, 0.0, 0.0] }
+)",
+                                    "s.toml");
+    EXPECT_FALSE(scene.cloths[0].bend);
+    EXPECT_FALSE(scene.cloths[0].damping);
+    EXPECT_TRUE(scene.cloths[0].pins.empty());
+    EXPECT_FALSE(scene.obstacles[0].friction);
+    EXPECT_FALSE(scene.obstacles[0].motion);
+}
+
+TEST(ReadScene, ObstaclesHaveFramesAndDimensions) {
+    const Scene scene = parse_scene(test::kFullScene, "full.toml");
+    const Obstacle& ball = scene.obstacles[0];
+    EXPECT_EQ(ball.frame.origin, (Vec3{0.0, 0.5, 0.0}));
+    EXPECT_EQ(ball.dimensions[0], 0.3);
+    EXPECT_EQ(ball.frame_at(2.0).origin, (Vec3{2.0, 0.5, 0.0}));
+
+    const Obstacle& plane = scene.obstacles[1];
+    EXPECT_EQ(plane.name, "obstacle1");
+    EXPECT_NEAR(plane.frame.to_local({3.0, 4.0, 5.0}).y, 5.0, 1e-12);
+
+    const Obstacle& capsule = scene.obstacles[2];
+    EXPECT_EQ(capsule.dimensions[1], 1.0);
+    EXPECT_NEAR(length(capsule.frame.to_world({0.0, 1.0, 0.0}) - Vec3{2.0, 0.0, 0.0}), 0.0, 1e-12);
+
+    const Obstacle& box = scene.obstacles[3];
+    EXPECT_EQ(box.dimensions, (std::array{0.5, 1.0, 2.0, 0.0}));
+    EXPECT_EQ(box.thickness, 0.01);
+}
+
+TEST(ReadScene, MeshIsRelativeToTheScene) {
+    const std::string text =
+        test::replaced(test::kSmallScene, "grid = { size = [1.0, 1.0], resolution = [3, 3] }",
+                       "mesh = \"meshes/shirt.obj\"");
+    const Scene scene = parse_scene(text, "scenes/s.toml");
+    EXPECT_EQ(std::get<MeshFile>(scene.cloths[0].shape).path, "scenes/meshes/shirt.obj");
+}
+
+TEST(ReadScene, GravityFollowsItsKeys) {
+    const Scene scene = parse_scene(
+        test::replaced(test::kSmallScene, "dt = 0.01",
+                       "dt = 0.01\ngravity_keyframes = [[1, 0, -10, 0], [2, 20, -10, 0]]"),
+        "s.toml");
+    EXPECT_EQ(scene.gravity_at(0.0), (Vec3{0.0, -10.0, 0.0}));
+    EXPECT_EQ(scene.gravity_at(1.5), (Vec3{10.0, -10.0, 0.0}));
+    EXPECT_EQ(scene.gravity_at(9.0), (Vec3{20.0, -10.0, 0.0}));
+}
+
+TEST(ReadScene, SizeScalesAllGeneratedCloth) {
+    const Scene scene = parse_scene(test::kFullScene, "s.toml", {{"scene.size=100000", "--set"}});
+    const auto grid = std::get<GridShape>(scene.cloths[0].shape).resolution;
+    const auto tube = std::get<CylinderShape>(scene.cloths[1].shape).resolution;
+    EXPECT_NEAR(grid[0] * grid[1] + tube[0] * tube[1], 100000, 1000);
+    EXPECT_NEAR(static_cast<double>(grid[1]) / grid[0], 9.0 / 5.0, 0.02);
+}
+
+TEST(ReadScene, SeveralRotationsAndBoxesAreLists) {
+    const Scene scene = parse_scene(test::kSmallScene + R"(
+rotate = [[1, 0, 0, 90], [0, 1, 0, 45]]
+scale = [1, 2, 3]
+pins.box = [[[-1, -1, -1], [0, 0, 0]], [[0, 0, 0], [1, 1, 1]]]
+)",
+                                    "s.toml");
+    EXPECT_EQ(scene.cloths[0].transform.rotations.size(), 2U);
+    EXPECT_EQ(scene.cloths[0].transform.scale, (Vec3{1, 2, 3}));
+    EXPECT_EQ(scene.cloths[0].pins[0].boxes.size(), 2U);
+}
+
+}  // namespace
+}  // namespace weft

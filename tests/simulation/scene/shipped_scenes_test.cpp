@@ -1,0 +1,42 @@
+// The scenes that ship: valid, small enough for CI as they are, and a million vertices on request.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "simulation/scene/cloth_mesh.h"
+#include "simulation/scene/read_scene.h"
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+int vertices_of(const Scene& scene) {
+    int vertices = 0;
+    Warnings warnings;
+    for (const Cloth& cloth : scene.cloths) {
+        const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
+        for (const PinGroup& pins : cloth.pins) {
+            EXPECT_FALSE(pinned_vertices(cloth, pins, mesh).empty());
+        }
+        vertices += mesh.vertex_count();
+    }
+    EXPECT_TRUE(warnings.empty());
+    return vertices;
+}
+
+TEST(ShippedScenes, AreSmallAndGrowToAMillionVertices) {
+    int scenes = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(WEFT_SCENES)) {
+        if (entry.path().extension() != ".toml") continue;
+        SCOPED_TRACE(entry.path().string());
+        ++scenes;
+        EXPECT_LE(vertices_of(read_scene(entry.path().string())), 64 * 64);
+        const Scene large = read_scene(entry.path().string(), {{"scene.size=1000000", "--set"}});
+        EXPECT_NEAR(vertices_of(large), 1000000, 10000);
+    }
+    EXPECT_GE(scenes, 3);
+}
+
+}  // namespace
+}  // namespace weft
