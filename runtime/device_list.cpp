@@ -7,6 +7,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
+#include "runtime/opencl/probe.h"
 #include "runtime/tbb/cpu_device.h"
 
 namespace weft {
@@ -55,16 +56,16 @@ std::optional<std::string> cut_off(std::string& text, char mark) {
     return rest;
 }
 
-int default_opencl_device(const std::string& text) {
-    const auto devices = opencl_devices();
-    if (devices.empty()) {
-        refuse(text, "no OpenCL platform was found (is a driver such as pocl-opencl-icd installed?)");
-    }
+/// The first GPU, or else the first device. At least one is there.
+int best_of(const std::vector<OpenClDeviceSummary>& devices) {
     const auto gpu = std::find_if(devices.begin(), devices.end(),
                                   [](const OpenClDeviceSummary& d) { return d.is_gpu; });
     return gpu == devices.end() ? 0 : static_cast<int>(gpu - devices.begin());
 }
 
+constexpr int kBestDevice = -1;
+
+/// Only what the text itself says: no device is looked for.
 Part parse_part(const std::string& text) {
     Part part{text};
     std::string rest = text;
@@ -73,13 +74,7 @@ Part parse_part(const std::string& text) {
     if (rest == "cpu" && !index) {
         part.is_cpu = true;
     } else if (rest == "opencl") {
-        part.index = index ? to_number(*index, text, 0) : default_opencl_device(text);
-        const int count = static_cast<int>(opencl_devices().size());
-        if (part.index >= count) {
-            refuse(text, count == 0 ? "no OpenCL platform was found"
-                                    : "there are OpenCL devices 0 to " + std::to_string(count - 1) +
-                                          " only; see weft devices");
-        }
+        part.index = index ? to_number(*index, text, 0) : kBestDevice;
     } else {
         refuse(text, "unknown device");
     }
@@ -99,6 +94,39 @@ std::vector<Part> parse(const std::string& list) {
         }
         if (end == std::string::npos) return parts;
         begin = end + 1;
+    }
+}
+
+/// Where all OpenCL parts say how many units they want, a driver on the CPU needs no more threads.
+void limit_driver(const std::vector<Part>& parts) {
+    int units = 0;
+    for (const Part& part : parts) {
+        if (part.is_cpu) continue;
+        if (part.units == 0) return;
+        units += part.units;
+    }
+    if (units > 0) limit_cpu_driver(units);
+}
+
+/// Finds the devices that the parts mean.
+void find_devices(std::vector<Part>& parts) {
+    for (Part& part : parts) {
+        if (part.is_cpu) continue;
+        const auto devices = opencl_devices();
+        if (devices.empty()) {
+            refuse(part.text,
+                   "no OpenCL platform was found (is a driver such as pocl-opencl-icd installed?)");
+        }
+        if (part.index == kBestDevice) part.index = best_of(devices);
+        const int count = static_cast<int>(devices.size());
+        if (part.index >= count) {
+            refuse(part.text, "the last OpenCL device is opencl:" + std::to_string(count - 1) +
+                                  "; see weft devices");
+        }
+        const int units = devices[static_cast<std::size_t>(part.index)].units;
+        if (part.units > units) {
+            refuse(part.text, "this device has " + std::to_string(units) + " compute units");
+        }
     }
 }
 
@@ -134,6 +162,8 @@ public:
         : parts_(std::move(parts)), options_(options), free_cores_(usable_cores()) {}
 
     std::vector<std::unique_ptr<Device>> open() {
+        limit_driver(parts_);
+        find_devices(parts_);
         share_cores(parts_, static_cast<int>(free_cores_.size()));
         open_opencl();
         std::vector<std::unique_ptr<Device>> devices;
@@ -204,10 +234,10 @@ std::vector<std::string> available_devices() {
 }
 
 std::string hybrid_devices() {
-    const auto devices = opencl_devices();
+    const auto devices = probe_opencl_devices();
     const int cores = static_cast<int>(usable_cores().size());
     if (devices.empty()) return "cpu";
-    const int best = default_opencl_device("hybrid");
+    const int best = best_of(devices);
     const std::string opencl = "opencl:" + std::to_string(best);
     if (!devices[static_cast<std::size_t>(best)].is_cpu) {
         // One core stays with the driver's threads, which feed the GPU.

@@ -101,6 +101,7 @@ private:
         const int memory = memory_of(device);
         for (const auto& missing : executor_.memory_.missing(access, memory)) {
             const ElementSpan span = elements_of(access, missing.interval);
+            if (span.begin == span.end) continue;  // strips without an element
             const std::uint64_t bytes = (span.end - span.begin) * access.buffer->element_size();
             Copy copy{{instance, task, missing.source - 1, device, bytes}, {}};
             Completion* arrival = missing.made_by;
@@ -166,17 +167,36 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
     RunTimes times;
     times.start = clock();
     Run run(*this, step, plan);
-    for (int i = 0; i < instances; ++i) {
-        run.submit(first_instance + i);
-        for (const auto& stream : streams_) stream->flush();
-    }
     std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
-    for (std::size_t d = 0; d < streams_.size(); ++d) {
-        streams_[d]->finish(times.tasks.emplace_back(), copy_times[d]);
+    try {
+        for (int i = 0; i < instances; ++i) {
+            run.submit(first_instance + i);
+            for (const auto& stream : streams_) stream->flush();
+        }
+        for (std::size_t d = 0; d < streams_.size(); ++d) {
+            streams_[d]->finish(times.tasks.emplace_back(), copy_times[d]);
+        }
+    } catch (...) {
+        drain();
+        throw;
     }
     times.end = clock();
     times.copies = run.copies(copy_times);
     return times;
+}
+
+/// After a failure: streams wait for each other's completions, so all have to end before one goes.
+void Executor::drain() {
+    std::vector<TaskTime> tasks;
+    std::vector<TimeSpan> copies;
+    for (const auto& stream : streams_) stream->flush();
+    for (const auto& stream : streams_) {
+        try {
+            stream->finish(tasks, copies);
+        } catch (const std::exception&) {
+            // The first error is the one to report.
+        }
+    }
 }
 
 void Executor::host_wrote(BufferStorage& buffer) {
@@ -191,9 +211,10 @@ void Executor::host_wrote(BufferStorage& buffer) {
 void Executor::fetch(BufferStorage& buffer) {
     memory_.settle();
     for (const auto& [access, missing] : memory_.missing_at_host(buffer)) {
+        const ElementSpan span = elements_of(access, missing.interval);
+        if (span.begin == span.end) continue;
         DeviceStream& source = *streams_[static_cast<std::size_t>(missing.source - 1)];
-        Completion* arrival = source.to_host(buffer, elements_of(access, missing.interval), {});
-        arrival->wait();
+        source.to_host(buffer, span, {})->wait();
         memory_.arrived(access, missing.interval, 0, nullptr);
     }
 }

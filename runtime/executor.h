@@ -55,6 +55,7 @@ public:
 
 private:
     class Run;
+    void drain();
 
     std::vector<Device*> devices_;
     std::vector<std::unique_ptr<DeviceStream>> streams_;

@@ -17,7 +17,7 @@ namespace weft::scheduler {
 struct PortfolioBudget {
     /// Schedules that may be built. One takes about 25 ns per task and processor. With this limit
     /// alone the result is deterministic.
-    std::uint32_t evaluations = 2000;
+    std::uint32_t evaluations = 4000;
     /// Time that may be spent, looked at between the parts and in the search; 0: no limit.
     double seconds = 0.0;
 };

@@ -1,6 +1,7 @@
 #include "simulation/simulation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -163,28 +164,27 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
 void Simulation::diagnose(const State& start) {
     // The same bits on every device: so this finds what happened there.
     restore(start);
-    executor_.reset();
     const auto device = make_cpu_device(1, {});
     const auto bodies = solver_->bodies();
     Executor executor({device.get()}, bodies);
     const Step step = solver_->make_step({});
-    const auto fail = [&](int substep, const Task* task, const BadState& bad) {
-        const std::string where = task == nullptr ? std::string("at its end")
-                                                  : fmt::format("task '{}', iteration {}",
-                                                                task->body->name, task->iteration);
+    const auto fail = [&](int substep, const Task& task, const BadState& bad) {
+        const std::string vertex = vertex_name(*model_, bad.vertex);
+        restore(start);
         return RunError(fmt::format(
-            "the simulation diverged in frame {}, substep {}, {}: {}: {}; smaller time steps (more "
-            "substeps) or softer materials may help",
-            frame_, substep, where, vertex_name(*model_, bad.vertex), bad.what));
+            "the simulation diverged in frame {}, substep {}, seen after task '{}', iteration {}: {}: "
+            "{}; smaller time steps (more substeps) or softer materials may help",
+            frame_, substep, task.body->name, task.iteration, vertex, bad.what));
     };
     for (int substep = 0; substep < model_->scene.substeps; ++substep) {
         for (const Task& task : step.tasks()) {
             Step one;
             one.add(task);
             executor.run(one, serial_plan(1), 1, substep);
-            if (const auto bad = find_non_finite(*model_)) throw fail(substep, &task, *bad);
+            if (const auto bad = find_non_finite(*model_)) throw fail(substep, task, *bad);
         }
-        if (const auto bad = find_bad_state(*model_)) throw fail(substep, nullptr, *bad);
+        // Only a substep's end is a state: before, positions may be far off for good reasons.
+        if (const auto bad = find_bad_state(*model_)) throw fail(substep, step.tasks().back(), *bad);
     }
     throw RunError(fmt::format("the simulation diverged in frame {}", frame_));
 }
@@ -201,7 +201,9 @@ RunDescription Simulation::describe() const {
                     {"iterations", std::to_string(scene.solver.iterations)},
                     {"vertices", std::to_string(model_->vertex_count())},
                     {"strips", std::to_string(model_->strips.count())}};
-    for (const std::string& change : scene.overrides) run.settings.emplace_back("set", change);
+    if (!scene.overrides.empty()) {
+        run.settings.emplace_back("set", fmt::format("{}", fmt::join(scene.overrides, "\n")));
+    }
     for (const auto& device : devices_) {
         const DeviceInfo& info = device->info();
         const bool host = info.memory == MemoryModel::kHost;

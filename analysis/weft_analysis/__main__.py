@@ -1,4 +1,4 @@
-"""python -m weft_analysis schedule|makespan|energy TRACE -o out.png"""
+"""python -m weft_analysis schedule|makespan|energy TRACE -o out.png, and surface GEOMETRY"""
 
 import argparse
 import sys
@@ -11,9 +11,13 @@ def main(arguments=None):
     # Imported late: matplotlib takes a second, and a wrong path should not.
     import matplotlib
     matplotlib.use("Agg")
-    from . import pictures
+    from . import pictures, surface
 
     try:
+        if options.command == "surface":
+            figure = surface.surface(options.geometry, options.step)
+            figure.savefig(options.output, dpi=150)
+            return 0
         with Trace(options.trace) as trace:
             if options.command == "schedule":
                 figure = pictures.schedule(trace, options.frame, options.substep)
@@ -40,6 +44,11 @@ def _parse(arguments):
         command = commands.add_parser(name, help=description, description=description)
         command.add_argument("trace", metavar="TRACE", help="trace.h5 of a run, finished or not")
         command.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
+    drawn = commands.add_parser("surface", help="the cloth at one step of frames.vtkhdf",
+                                description="Draws the cloth at one step of frames.vtkhdf.")
+    drawn.add_argument("geometry", metavar="GEOMETRY", help="frames.vtkhdf of a run")
+    drawn.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
+    drawn.add_argument("--step", type=int, help="0 is the start; default: the last one")
     schedule = commands.choices["schedule"]
     schedule.add_argument("--frame", type=int, help="its number; default: the last complete one")
     schedule.add_argument("--substep", type=int, default=0, help="default: 0")

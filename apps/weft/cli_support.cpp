@@ -135,6 +135,16 @@ void add_scene_options(CLI::App& command, RunOptions& options) {
         ->group(group);
 }
 
+void add_memory_option(CLI::App& command, RunOptions& options) {
+    command
+        .add_option("--memory", options.memory,
+                    "how OpenCL devices reach memory: auto (as they say), host, mapped or discrete")
+        ->type_name("KIND")
+        ->check(one_of({"auto", "host", "mapped", "discrete"}))
+        ->capture_default_str()
+        ->group("Devices");
+}
+
 void add_device_options(CLI::App& command, RunOptions& options) {
     const std::string group = "Devices";
     command
@@ -156,13 +166,7 @@ void add_device_options(CLI::App& command, RunOptions& options) {
         ->check(one_of({"strict", "fast"}))
         ->capture_default_str()
         ->group(group);
-    command
-        .add_option("--memory", options.memory,
-                    "how OpenCL devices reach memory: auto (as they say), host, mapped or discrete")
-        ->type_name("KIND")
-        ->check(one_of({"auto", "host", "mapped", "discrete"}))
-        ->capture_default_str()
-        ->group(group);
+    add_memory_option(command, options);
     command
         .add_option("--strips", options.strips,
                     "divide the strips so among the devices, as in 12,20, instead of planning it; "

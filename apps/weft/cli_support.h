@@ -46,6 +46,9 @@ void add_scene_options(CLI::App& command, RunOptions& options);
 /// --device --plan --math --memory --strips.
 void add_device_options(CLI::App& command, RunOptions& options);
 
+/// --memory alone.
+void add_memory_option(CLI::App& command, RunOptions& options);
+
 /// --out --no-geometry --no-trace --force --resume.
 void add_output_options(CLI::App& command, RunOptions& options);
 

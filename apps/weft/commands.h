@@ -7,6 +7,7 @@
 /// UserError or RunError; main.cpp turns these into messages and exit codes.
 namespace weft {
 
+void add_compare_command(CLI::App& app);
 void add_devices_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_plan_command(CLI::App& app);

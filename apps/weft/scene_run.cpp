@@ -11,9 +11,16 @@ namespace weft {
 
 namespace {
 
+/// The kernels' binaries are kept for the next run.
+constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
+
 std::filesystem::path folder_for(const RunOptions& options, const Scene& scene) {
     return options.out ? std::filesystem::path(*options.out)
                        : std::filesystem::path("out") / scene.name;
+}
+
+bool touches_opencl(const std::string& devices) {
+    return devices.find("opencl") != std::string::npos || devices.find("hybrid") != std::string::npos;
 }
 
 /// The devices that cannot keep strict arithmetic's promise.
@@ -63,14 +70,24 @@ std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
 SceneRun::SceneRun(const RunOptions& options)
     : options_(options),
       scene_(read_scene(options.scene, options.overrides())),
-      folder_(folder_for(options, scene_), options.force),
-      simulation_(scene_, options.simulation(), warnings_),
-      description_(describe(simulation_, options)),
-      summary_(description_) {
-    if (!options_.quiet) say_what_runs();
+      folder_(folder_for(options, scene_), options.force) {
+    set_up();
     folder_.claim();
-    if (!options_.no_trace) trace_.emplace(folder_.trace(), description_);
+    const RunDescription description = describe(*simulation_, options_);
+    summary_.emplace(description);
+    if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
     if (!options_.no_geometry) open_geometry();
+}
+
+void SceneRun::set_up() {
+    const SimulationOptions settings = options_.simulation();
+    if (!options_.quiet) {
+        std::cerr << fmt::format("weft: {}: setting up on {}{}\n", scene_.name, options_.device,
+                                 touches_opencl(options_.device) ? kFirstTimeNote : "")
+                  << std::flush;
+    }
+    simulation_.emplace(scene_, settings, warnings_);
+    if (!options_.quiet) say_what_runs();
 }
 
 void SceneRun::say_what_runs() const {
@@ -80,16 +97,16 @@ void SceneRun::say_what_runs() const {
                                  folder_.path().string());
     }
     std::vector<std::string> devices;
-    for (const auto& device : simulation_.devices()) {
+    for (const auto& device : simulation_->devices()) {
         const DeviceInfo& info = device->info();
         devices.push_back(fmt::format("{} ({}, {} unit{})", info.name, info.kind, info.units,
                                       info.units == 1 ? "" : "s"));
     }
     std::cerr << fmt::format("weft: {}: {} vertices, {} frames on {}\n", scene_.name,
-                             simulation_.model().vertex_count(), scene_.frames,
+                             simulation_->model().vertex_count(), scene_.frames,
                              fmt::join(devices, " + "));
     if (options_.math != "strict") return;
-    for (const std::string& name : loose_devices(simulation_)) {
+    for (const std::string& name : loose_devices(*simulation_)) {
         std::cerr << fmt::format(
             "weft: warning: {} does not round divisions and square roots correctly: its results "
             "may differ from those of other devices in the last bits\n",
@@ -98,7 +115,7 @@ void SceneRun::say_what_runs() const {
 }
 
 void SceneRun::open_geometry() {
-    const Model& model = simulation_.model();
+    const Model& model = simulation_->model();
     const auto triangles = geometry_triangles(model);
     geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
                       geometry_bodies(model), static_cast<std::size_t>(scene_.frames) + 1);
@@ -106,14 +123,14 @@ void SceneRun::open_geometry() {
 }
 
 void SceneRun::append_geometry() {
-    geometry_->append(simulation_.frame() * scene_.dt, simulation_.positions());
+    geometry_->append(simulation_->frame() * scene_.dt, simulation_->positions());
 }
 
 void SceneRun::advance_all(const InterruptNotice& notice) {
     Progress progress("frame", scene_.frames, options_.quiet);
     while (frames_done() < scene_.frames && notice.signal() == 0) {
-        FrameRecord record = simulation_.advance();
-        summary_.add(record);
+        FrameRecord record = simulation_->advance();
+        summary_->add(record);
         if (trace_) trace_->append(std::move(record));
         if (geometry_) append_geometry();
         progress.show(frames_done());
@@ -121,9 +138,9 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
 }
 
 RunSummary SceneRun::finish() {
-    RunSummary summary = summary_.summary();
+    RunSummary summary = summary_->summary();
     summary.finished = frames_done() == scene_.frames;
-    summary.state_hash = simulation_.hash();
+    summary.state_hash = simulation_->hash();
     if (trace_) {
         if (summary.finished) trace_->finish(summary.state_hash);
         trace_.reset();

@@ -24,11 +24,12 @@ public:
     /// Closes all files, and writes the summary. The frames that are not done make it unfinished.
     RunSummary finish();
 
-    int frames_done() const { return simulation_.frame(); }
-    int frame_count() const { return simulation_.model().scene.frames; }
+    int frames_done() const { return simulation_->frame(); }
+    int frame_count() const { return scene_.frames; }
     const OutputFolder& folder() const { return folder_; }
 
 private:
+    void set_up();
     void say_what_runs() const;
     void open_geometry();
     void append_geometry();
@@ -37,9 +38,8 @@ private:
     Scene scene_;
     OutputFolder folder_;
     Warnings warnings_;
-    Simulation simulation_;
-    RunDescription description_;
-    SummaryBuilder summary_;
+    std::optional<Simulation> simulation_;
+    std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
 };

@@ -30,7 +30,10 @@ typedef float real;
 typedef int integer;
 #else
 typedef float8 real;
-typedef int8 integer;
+// Not int8: indices become addresses, and eight loads are faster than taking a register apart.
+typedef struct {
+    int s0, s1, s2, s3, s4, s5, s6, s7;
+} integer;
 #endif
 
 typedef struct {
@@ -63,8 +66,13 @@ WEFT_INLINE void store(__global float* p, item i, real v) { p[i.first] = v; }
 
 #else
 
+/// Lane j of an item with at least one and at most 8 lanes; lanes beyond the last repeat it.
+#define WEFT_LANE(i, j) ((i).first + min(j, (i).count - 1))
+
 WEFT_INLINE integer lane_indices(item i) {
-    return min((integer)(0, 1, 2, 3, 4, 5, 6, 7), (integer)(i.count - 1)) + i.first;
+    integer k = {i.first,         WEFT_LANE(i, 1), WEFT_LANE(i, 2), WEFT_LANE(i, 3),
+                 WEFT_LANE(i, 4), WEFT_LANE(i, 5), WEFT_LANE(i, 6), WEFT_LANE(i, 7)};
+    return k;
 }
 
 // Rows of 4 to columns of 8 and back, in pairs of 128-bit halves as in packed.h: written like this, a
@@ -117,9 +125,9 @@ WEFT_INLINE real load(__global const float* p, item i) {
 }
 
 WEFT_INLINE integer load_index(__global const int* p, item i) {
-    if (i.count == 8) return vload8(0, p + i.first);
     integer k = lane_indices(i);
-    return (integer)(p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7]);
+    integer v = {p[k.s0], p[k.s1], p[k.s2], p[k.s3], p[k.s4], p[k.s5], p[k.s6], p[k.s7]};
+    return v;
 }
 
 WEFT_INLINE void store(__global float* p, item i, real v) {

@@ -94,7 +94,7 @@ void OpenClStream::begin(double epoch) {
     copied_.clear();
     completions_.clear();
     epoch_ = epoch;
-    first_enqueued_ = 0.0;
+    first_command_ = cl::Event();
 }
 
 Completion* OpenClStream::remember(const cl::Event& event) {
@@ -148,17 +148,26 @@ void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
         }
     }
     if (running.last() == nullptr) {  // no items at all
+        const double enqueued = now();
         queue_.enqueueMarkerWithWaitList(&waits, &running.last);
         running.first = running.last;
+        note_first(running.first, enqueued);
     }
 }
 
 void OpenClStream::enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
                            std::vector<cl::Event>& waits, Running& running) {
-    if (first_enqueued_ == 0.0) first_enqueued_ = now();
+    const double enqueued = now();
     queue_.enqueueNDRangeKernel(entry.kernel, cl::NullRange, items, group,
                                 waits.empty() ? nullptr : &waits, &running.last);
     if (running.first() == nullptr) running.first = running.last;
+    note_first(running.first, enqueued);
+}
+
+void OpenClStream::note_first(const cl::Event& command, double enqueued) {
+    if (first_command_() != nullptr) return;
+    first_command_ = command;
+    first_enqueued_ = enqueued;
 }
 
 void OpenClStream::flush() {
@@ -177,10 +186,10 @@ void OpenClStream::finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& c
     try {
         copies_.finish();
         queue_.finish();
-        if (running_.empty()) return;
+        if (first_command_() == nullptr) return;
         // Both clocks were read within a microsecond of each other when the first command was
         // enqueued; so their difference is known anew every frame, and cannot drift.
-        const auto queued = running_.front().first.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+        const auto queued = first_command_.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
         const double offset = first_enqueued_ - epoch_ - static_cast<double>(queued) * kNanosecond;
         for (const Running& r : running_) {
             const TimeSpan time = time_of(r, offset);
@@ -201,11 +210,13 @@ OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferSto
     char* host = static_cast<char*>(buffer.host()) + offset;
     const bool out = direction == Direction::kToDevice;
     const auto* wait_list = waits.empty() ? nullptr : &waits;
+    const double enqueued = now();
     Commands commands;
     if (target_.info.memory == MemoryModel::kMapped) {
         void* mapped = copies_.enqueueMapBuffer(memory, CL_FALSE, out ? CL_MAP_WRITE : CL_MAP_READ,
                                                 offset, bytes, wait_list, &commands.first);
         copies_.enqueueUnmapMemObject(memory, mapped, nullptr, &commands.last);
+        note_first(commands.first, enqueued);
         return commands;
     }
     if (out) {
@@ -216,6 +227,7 @@ OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferSto
                                   &commands.first);
     }
     commands.last = commands.first;
+    note_first(commands.first, enqueued);
     return commands;
 }
 

@@ -69,6 +69,7 @@ private:
                      std::span<Completion* const> waits);
     Commands enqueue_copy(Direction direction, BufferStorage& buffer, ElementSpan span,
                           const std::vector<cl::Event>& waits);
+    void note_first(const cl::Event& command, double enqueued);
     TimeSpan time_of(const Commands& commands, double offset) const;
     Completion* remember(const cl::Event& event);
 
@@ -81,7 +82,8 @@ private:
     std::deque<Running> running_;
     std::vector<Commands> copied_;
     double epoch_ = 0.0;
-    double first_enqueued_ = 0.0;  ///< steady-clock seconds of the frame's first kernel
+    cl::Event first_command_;      ///< of the frame; a kernel or a copy
+    double first_enqueued_ = 0.0;  ///< its steady-clock seconds
 };
 
 }  // namespace weft

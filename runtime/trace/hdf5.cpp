@@ -87,6 +87,8 @@ Handle string_type_like(hid_t stored, const std::string& what) {
     return string_type();
 }
 
+std::string part_name(const std::string& path) { return path + ".part"; }
+
 }  // namespace
 
 Session::Session() : lock_(library_mutex()) {
@@ -126,15 +128,24 @@ void Handle::close(std::string_view what) {
 }
 
 Handle create_file(const std::string& path, FileFormat format, std::size_t chunks) {
-    std::error_code ignored;  // whatever is in the way is named by H5Fcreate
-    if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
+        throw Error("create: there is something of that name that is not a file");
+    }
+    const std::string part = part_name(path);
+    std::filesystem::remove(part);
     const Handle access = file_access();
     const auto oldest = format == FileFormat::kSwmr ? kFormat110 : kFormat18;
     check(H5Pset_libver_bounds(access.id(), oldest, kFormat110), "set the file's format");
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "set the file's format");
     check(H5Pset_istore_k(creation.id(), static_cast<unsigned>((chunks + 1) / 2)),
           "set the file's format");
-    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, "create"};
+    return {H5Fcreate(part.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, "create"};
+}
+
+void publish(const std::string& path) {
+    if (std::rename(part_name(path).c_str(), path.c_str()) != 0) {
+        throw Error(std::string("create: ") + std::strerror(errno));
+    }
 }
 
 Handle open_to_read(const std::string& path) {
@@ -149,14 +160,6 @@ Handle open_to_read(const std::string& path) {
 Handle open_to_modify(const std::string& path) {
     const Handle access = file_access();
     return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, "open"};
-}
-
-std::string part_name(const std::string& path) { return path + ".part"; }
-
-void publish(const std::string& path) {
-    if (std::rename(part_name(path).c_str(), path.c_str()) != 0) {
-        throw Error(std::string("create: ") + std::strerror(errno));
-    }
 }
 
 Handle create_group(hid_t parent, const std::string& name) {

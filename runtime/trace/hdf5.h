@@ -82,17 +82,15 @@ enum class FileFormat {
     kPlain,  ///< HDF5 1.8 superblock: opens plainly at any time, whoever is writing it.
 };
 
-/// Creates the file anew. A file of that name is unlinked first, so its readers keep it.
+/// Creates the file, under the name <path>.part until publish(): nobody finds a half-made one.
 /// chunks  up to so many chunks of a dataset (kPlain) are listed in one node of its index
 Handle create_file(const std::string& path, FileFormat format, std::size_t chunks = 64);
+/// Gives a created file its name, once it is fit to be read. Readers of an old file of that name
+/// keep theirs.
+void publish(const std::string& path);
 /// Opens to read; also a file that is being written, or whose writer was killed (SWMR).
 Handle open_to_read(const std::string& path);
 Handle open_to_modify(const std::string& path);
-
-/// A file gets this name first, and its own by publish() once it is fit to be read: nobody finds a
-/// half-made one.
-std::string part_name(const std::string& path);
-void publish(const std::string& path);
 
 Handle create_group(hid_t parent, const std::string& name);
 bool exists(hid_t parent, const std::string& name);

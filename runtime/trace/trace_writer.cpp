@@ -183,7 +183,7 @@ public:
 
 private:
     void create(const RunDescription& run) {
-        file_ = hdf5::create_file(hdf5::part_name(path_), hdf5::FileFormat::kSwmr);
+        file_ = hdf5::create_file(path_, hdf5::FileFormat::kSwmr);
         write_run(file_.id(), run);
         tables_.emplace(file_.id(), run);
         hdf5::check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "write");

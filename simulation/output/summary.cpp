@@ -155,8 +155,9 @@ std::string to_text(const RunSummary& summary) {
     std::string text;
     line(text, "scene", summary.scene);
     line(text, "frames",
-         fmt::format("{} ({:.4g} s simulated) in {:.3f} s", summary.frames, summary.simulated_time,
-                     summary.wall_time));
+         fmt::format("{} ({:.4g} s simulated) in {:.3f} s{}", summary.frames,
+                     summary.simulated_time, summary.wall_time,
+                     summary.finished ? "" : "; not all of them"));
     if (summary.frames == 0) return text;
     line(text, "time per frame",
          fmt::format("median {:.3f} ms, p95 {:.3f} ms", 1e3 * summary.frame_median,
@@ -171,8 +172,7 @@ std::string to_text(const RunSummary& summary) {
     line(text, "planner", fmt::format("{:.1f} us per frame", 1e6 * summary.plan_time));
     line(text, "transfers", bytes_text(summary.transferred_bytes));
     line(text, "energy", energies_text(summary));
-    line(text, "state hash",
-         summary.state_hash.empty() ? "not known" : summary.state_hash);
+    line(text, "state hash", summary.state_hash.empty() ? "not known" : summary.state_hash);
     for (const auto& [what, path] : summary.files) line(text, what, path);
     return text;
 }

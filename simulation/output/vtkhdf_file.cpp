@@ -59,7 +59,7 @@ VtkhdfFile::VtkhdfFile(const std::string& path, std::span<const Triangle> triang
                        const std::vector<std::string>& body_names, std::size_t step_limit)
     : vertex_count_(vertex_count),
       step_limit_(step_limit),
-      file_(hdf5::create_file(hdf5::part_name(path), hdf5::FileFormat::kPlain,
+      file_(hdf5::create_file(path, hdf5::FileFormat::kPlain,
                               std::clamp<std::size_t>(step_limit, 2, kStepsPerNode))),
       root_(hdf5::create_group(file_.id(), "VTKHDF")) {
     const int version[] = {2, 0};

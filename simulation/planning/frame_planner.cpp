@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "runtime/clock.h"
+#include "runtime/error.h"
 
 namespace weft {
 
@@ -35,7 +37,16 @@ FramePlanner::FramePlanner(Solver& solver, int strip_count, const std::vector<De
       costs_(static_cast<std::uint32_t>(solver.kinds().size()),
              static_cast<std::uint32_t>(devices.size())),
       latency_(devices.size() * devices.size(), kFirstLatency),
-      mixture_(Division::proportional(strip_count, std::vector<double>(devices.size(), 1.0))) {}
+      mixture_(Division::proportional(strip_count, std::vector<double>(devices.size(), 1.0))) {
+    if (!fixed_) return;
+    const auto& given = fixed_->strips;
+    const int sum = std::accumulate(given.begin(), given.end(), 0);
+    if (given.size() == devices.size() && sum == strip_count) return;
+    throw UserError("the division of the strips names " + std::to_string(given.size()) +
+                    " devices and " + std::to_string(sum) + " strips; there are " +
+                    std::to_string(devices.size()) + " devices and " + std::to_string(strip_count) +
+                    " strips");
+}
 
 FramePlanner::Candidate& FramePlanner::candidate(const Division& division) {
     auto& known = candidates_[division];
@@ -74,6 +85,7 @@ void FramePlanner::refresh(const Candidate& candidate, scheduler::TaskGraph& gra
         }
         graph.set_cost(static_cast<scheduler::TaskId>(t), cost_);
     }
+    if (graph.sealed() && links_are_current(graph)) return;
     for (int p = 0; p < device_count(); ++p) {
         for (int q = 0; q < device_count(); ++q) {
             if (p == q) continue;
@@ -85,6 +97,19 @@ void FramePlanner::refresh(const Candidate& candidate, scheduler::TaskGraph& gra
     graph.seal();
 }
 
+/// Sealing takes longer than planning, so small changes of latencies wait until they add up.
+bool FramePlanner::links_are_current(const scheduler::TaskGraph& graph) const {
+    for (int p = 0; p < device_count(); ++p) {
+        for (int q = 0; q < device_count(); ++q) {
+            if (p == q) continue;
+            const double used = graph.latency(static_cast<scheduler::ProcessorId>(p),
+                                              static_cast<scheduler::ProcessorId>(q));
+            if (std::abs(used - latency(p, q)) > 0.1 * latency(p, q)) return false;
+        }
+    }
+    return true;
+}
+
 double FramePlanner::correction(unsigned mask) const {
     const auto known = ratios_.find(mask);
     return known == ratios_.end() || known->second.empty() ? 1.0 : median(known->second);
@@ -92,9 +117,13 @@ double FramePlanner::correction(unsigned mask) const {
 
 double FramePlanner::predict(const Division& division) {
     Candidate& c = candidate(division);
-    refresh(c, c.pinned, true);
-    heft_.schedule(c.pinned, trial_);
-    return trial_.makespan * correction(division.mask());
+    if (c.predicted_in != frame_) {
+        refresh(c, c.pinned, true);
+        heft_.schedule(c.pinned, trial_);
+        c.makespan = trial_.makespan;
+        c.predicted_in = frame_;
+    }
+    return c.makespan * correction(division.mask());
 }
 
 Division FramePlanner::best_single() {
@@ -160,6 +189,7 @@ void FramePlanner::fill(const Division& division) {
 
 const FramePlan& FramePlanner::next() {
     const double start = now();
+    ++frame_;
     if (candidates_.size() > kMostCandidates) candidates_.clear();
     const Division division = choose();
     fill(division);
@@ -192,6 +222,7 @@ std::vector<FramePlan> FramePlanner::calibration() {
 void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int instances) {
     learn_tasks(plan, times, instances);
     costs_.refit();
+    ++frame_;  // predictions from before are void
     if (plan.substep_time > 0.0) learn_correction(plan, times, instances);
     if (mixture_.devices().size() > 1 && !last_) {
         // Calibration has just begun to tell the devices' speeds apart.

@@ -55,6 +55,8 @@ private:
         std::vector<int> devices;        ///< [region]
         scheduler::TaskGraph pinned;     ///< every task on its region's device
         scheduler::TaskGraph free;       ///< every task anywhere
+        double makespan = 0.0;           ///< predicted, pinned
+        long predicted_in = -1;          ///< the frame in which it was
     };
 
     std::size_t index(int from, int to) const {
@@ -64,6 +66,7 @@ private:
 
     Candidate& candidate(const Division& division);
     void refresh(const Candidate& candidate, scheduler::TaskGraph& graph, bool pinned);
+    bool links_are_current(const scheduler::TaskGraph& graph) const;
     double task_cost(const Task& task, int device) const;
     /// Predicted time of a substep, corrected.
     double predict(const Division& division);
@@ -89,6 +92,7 @@ private:
     std::map<Division, std::unique_ptr<Candidate>> candidates_;
     std::map<unsigned, std::vector<double>> ratios_;  ///< [mask] measured / planned, last few frames
     FramePlan current_;
+    long frame_ = 0;
     // Working memory.
     scheduler::Heft heft_;
     scheduler::LowerBounds bounds_;

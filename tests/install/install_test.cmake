@@ -16,4 +16,5 @@ run(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -G ${GENERATOR}
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/scheduler_alone)
 run(${WORK}/build/runtime_alone)
+run(${WORK}/build/cloth)
 run(${WORK}/prefix/bin/weft --help)

@@ -16,7 +16,8 @@ std::map<std::string_view, kernels::RangeFunction>& forms() {
 
 template <class Kernel>
 bool note() {
-    return forms().emplace(Kernel::kName, &kernels::run_range<Kernel>).second;
+    const kernels::RangeFunction function = &kernels::run_range<Kernel>;
+    return forms().emplace(Kernel::kName, function).second;
 }
 
 }  // namespace

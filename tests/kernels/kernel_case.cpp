@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <numeric>
 
 #include "runtime/executor.h"
 
@@ -22,15 +21,7 @@ std::map<std::string_view, MakeCase>& makers() {
     return instance;
 }
 
-/// A parameter's value or the address of its buffer, where a range function looks for it.
-union Slot {
-    float real;
-    int integer;
-    void* pointer;
-};
-
 void expect_finite(const BufferStorage& buffer) {
-    if (dynamic_cast<const Buffer<int>*>(&buffer) != nullptr) return;
     const auto* values = static_cast<const float*>(buffer.host());
     for (std::size_t i = 0; i < buffer.bytes() / sizeof(float); ++i) {
         ASSERT_TRUE(std::isfinite(values[i])) << buffer.name() << ", float " << i;
@@ -38,13 +29,6 @@ void expect_finite(const BufferStorage& buffer) {
 }
 
 }  // namespace
-
-std::vector<int> Random::permutation(int count) {
-    std::vector<int> list(static_cast<std::size_t>(count));
-    std::iota(list.begin(), list.end(), 0);
-    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[engine_() % i]);
-    return list;
-}
 
 KernelCase::KernelCase(int item_count, Flavour kind, unsigned seed)
     : items(item_count),
@@ -71,44 +55,29 @@ std::unique_ptr<KernelCase> make_case(std::string_view kernel, int items, Flavou
     return made;
 }
 
-void run_on_host(const Launch& launch, kernels::RangeFunction function, int begin, int end,
-                 int instance) {
-    std::vector<Slot> values(launch.arguments.size());
-    std::vector<const void*> addresses;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const Argument& argument = launch.arguments[i];
-        if (argument.buffer != nullptr) values[i].pointer = argument.buffer->host();
-        else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat) values[i].real = argument.real;
-        else values[i].integer = argument.is_instance ? instance : argument.integer;
-        addresses.push_back(&values[i]);
-    }
-    function(begin, end, addresses.data());
-}
-
-void run_on_device(KernelCase& kernel_case, Device& device, int instance) {
-    const TaskBody body{"kernel", 0, {kernel_case.launch}};
+void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& device,
+                   int instance) {
+    std::vector<TaskBody> bodies(cases.size());
+    std::vector<const TaskBody*> pointers;
     Step step;
-    auto task = step.add(body, 0, 0, kernel_case.segments.strip_count, 0);
-    for (const auto& buffer : kernel_case.buffers) {
-        task.updates(*buffer, 0, static_cast<int>(buffer->count()));
+    scheduler::Plan plan;
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        KernelCase& one = *cases[c];
+        bodies[c] = {std::string(one.launch.kernel->name), 0, {one.launch}};
+        pointers.push_back(&bodies[c]);
+        auto task = step.add(bodies[c], 0, 0, one.segments.strip_count, 0);
+        for (const auto& buffer : one.buffers) {
+            task.updates(*buffer, 0, static_cast<int>(buffer->count()));
+        }
+        plan.placements.push_back({static_cast<double>(c), static_cast<double>(c + 1), 0});
     }
     step.seal();
-    scheduler::Plan plan;
-    plan.placements = {{0.0, 1.0, 0}};
 
-    const TaskBody* const bodies[] = {&body};
-    Executor executor({&device}, bodies);
+    Executor executor({&device}, pointers);
     executor.run(step, plan, 1, instance);
-    for (const auto& buffer : kernel_case.buffers) executor.fetch(*buffer);
-}
-
-std::vector<std::vector<std::byte>> contents(const KernelCase& kernel_case) {
-    std::vector<std::vector<std::byte>> all;
-    for (const auto& buffer : kernel_case.buffers) {
-        const auto* bytes = static_cast<const std::byte*>(buffer->host());
-        all.emplace_back(bytes, bytes + buffer->bytes());
+    for (const auto& one : cases) {
+        for (const auto& buffer : one->buffers) executor.fetch(*buffer);
     }
-    return all;
 }
 
 void expect_same(const KernelCase& expected, const KernelCase& actual) {

@@ -1,38 +1,15 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <random>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "runtime/device.h"
-#include "runtime/launch.h"
+#include "tests/kernels/random.h"
+#include "tests/kernels/run_on_host.h"
 
 namespace weft::test {
-
-/// Random numbers that are the same with every standard library.
-class Random {
-public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-
-    float real(float low, float high) {
-        return low + (high - low) * static_cast<float>(engine_() >> 8) / static_cast<float>(1U << 24);
-    }
-    /// In [low, high].
-    int integer(int low, int high) {
-        return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1));
-    }
-    float4 point(float size) {
-        return {real(-size, size), real(-size, size), real(-size, size), 0.0f};
-    }
-    /// 0 .. count - 1 in random order.
-    std::vector<int> permutation(int count);
-
-private:
-    std::mt19937 engine_;
-};
 
 enum class Flavour {
     kRandom,
@@ -46,16 +23,21 @@ struct KernelCase {
 
     template <class T>
     Buffer<T>& add(const std::string& name, int count) {
-        auto buffer = std::make_unique<Buffer<T>>(name, static_cast<std::size_t>(count));
+        auto buffer = std::make_shared<Buffer<T>>(name, static_cast<std::size_t>(count));
         Buffer<T>& reference = *buffer;
         buffers.push_back(std::move(buffer));
         return reference;
+    }
+    /// The one that was added as number `index`, as the type that it has.
+    template <class T>
+    Buffer<T>& buffer(std::size_t index) {
+        return static_cast<Buffer<T>&>(*buffers[index]);
     }
 
     int items;
     Flavour flavour;
     Random random;
-    std::vector<std::unique_ptr<BufferStorage>> buffers;
+    std::vector<std::shared_ptr<BufferStorage>> buffers;
     Buffer<int> segment_begin;
     Segments segments;  ///< the items in strips and colours of many sizes, some empty
     Launch launch;
@@ -74,15 +56,9 @@ std::unique_ptr<KernelCase> make_case(std::string_view kernel, int items, Flavou
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed);
 
-/// Runs items [begin, end) of a launch by one of the kernel's compiled forms.
-void run_on_host(const Launch& launch, kernels::RangeFunction function, int begin, int end,
-                 int instance = 0);
-
-/// Runs all items on a device, as a task of its own.
-void run_on_device(KernelCase& kernel_case, Device& device, int instance = 0);
-
-/// The bytes of all buffers.
-std::vector<std::vector<std::byte>> contents(const KernelCase& kernel_case);
+/// Runs all items of all cases on a device, each case as a task of its own.
+void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& device,
+                   int instance = 0);
 
 /// Expects the same bits in all buffers.
 void expect_same(const KernelCase& expected, const KernelCase& actual);

@@ -37,7 +37,7 @@ TEST(TaskGraph, MeanCostLeavesOutProcessorsThatCannotRun) {
 TEST(TaskGraph, TransferTakesLatencyAndBandwidthOfThePair) {
     TaskGraph graph(2);
     graph.set_link(0, 1, 3.0, 2.0);
-    graph.set_link(1, 0, 1.0, INFINITY);
+    graph.set_link(1, 0, 1.0, kCannotRun);
     EXPECT_EQ(graph.transfer_time(10.0, 0, 1), 8.0);
     EXPECT_EQ(graph.transfer_time(10.0, 1, 0), 1.0);
     EXPECT_EQ(graph.transfer_time(10.0, 1, 1), 0.0);
@@ -94,7 +94,7 @@ TEST(TaskGraph, RefusesWhatIsNoGraph) {
     graph.add_task(std::vector{1.0, 1.0});
     EXPECT_EQ(error_of([&] { graph.add_edge(0, 7, 1.0); }),
               "an edge names task #7, but there are only 1 tasks");
-    EXPECT_EQ(error_of([&] { graph.add_edge(0, 0, NAN); }),
+    EXPECT_EQ(error_of([&] { graph.add_edge(0, 0, std::nan("")); }),
               "edge #0 -> #0: data must be a finite number >= 0, not nan");
     EXPECT_EQ(error_of([&] { graph.set_links(0.0, 0.0); }), "bandwidth must be > 0, not 0.000000");
     graph.add_edge(0, 0, 1.0);

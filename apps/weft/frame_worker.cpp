@@ -1,0 +1,131 @@
+#include "apps/weft/frame_worker.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <numeric>
+#include <sstream>
+
+#include "runtime/error.h"
+#include "simulation/simulation.h"
+
+namespace weft {
+
+namespace {
+
+constexpr char kReady = 'r';
+constexpr char kFrame = 'f';
+constexpr char kHash = 'h';
+constexpr char kEnd = 'e';
+
+// An answer is one line: what happened, then its text.
+constexpr char kDone = '+';
+constexpr char kUserError = 'u';
+constexpr char kRunError = '!';
+
+void write_line(int descriptor, char status, std::string text) {
+    for (char& c : text) {
+        if (c == '\n') c = ' ';
+    }
+    const std::string line = status + text + '\n';
+    std::size_t sent = 0;
+    while (sent < line.size()) {
+        const ssize_t count = ::write(descriptor, line.data() + sent, line.size() - sent);
+        if (count <= 0) ::_exit(1);  // whoever asked is gone
+        sent += static_cast<std::size_t>(count);
+    }
+}
+
+std::string read_line(int descriptor) {
+    std::string line;
+    char c = 0;
+    while (::read(descriptor, &c, 1) == 1 && c != '\n') line += c;
+    return line;
+}
+
+std::string frame_line(Simulation& simulation) {
+    const FrameRecord frame = simulation.advance();
+    const double busy = std::accumulate(frame.busy.begin(), frame.busy.end(), 0.0);
+    const double devices = static_cast<double>(frame.busy.size());
+    const double energy = std::accumulate(frame.energies.begin(), frame.energies.end(),
+                                          frame.kinetic_energy + frame.gravity_energy);
+    int taking_part = 0;
+    for (const double b : frame.busy) taking_part += b > 0.0 ? 1 : 0;
+    return fmt::format("{} {} {} {} {} {} {}", 1e3 * (frame.end - frame.start),
+                       1e3 * frame.planned_makespan, 1e3 * frame.measured_makespan,
+                       1e3 * frame.plan_time, busy / devices / frame.measured_makespan, energy,
+                       taking_part > 1 ? 1 : 0);
+}
+
+}  // namespace
+
+FrameWorker::FrameWorker(const RunOptions& options) : devices_(options.device) {
+    int commands[2];
+    int answers[2];
+    if (::pipe(commands) != 0 || ::pipe(answers) != 0) throw RunError("cannot make a pipe");
+    std::fflush(nullptr);
+    process_ = ::fork();
+    if (process_ < 0) throw RunError("cannot start a process");
+    if (process_ == 0) {
+        ::close(commands[1]);
+        ::close(answers[0]);
+        serve(options, commands[0], answers[1]);
+    }
+    ::close(commands[0]);
+    ::close(answers[1]);
+    to_worker_ = commands[1];
+    from_worker_ = answers[0];
+}
+
+FrameWorker::~FrameWorker() {
+    // Not by closing the pipe alone: workers started later hold copies of its end. One that has
+    // ended already does not read, and need not.
+    [[maybe_unused]] const ssize_t sent = ::write(to_worker_, &kEnd, 1);
+    ::close(to_worker_);
+    ::close(from_worker_);
+    ::waitpid(process_, nullptr, 0);
+}
+
+void FrameWorker::serve(const RunOptions& options, int in, int out) {
+    try {
+        const Scene scene = read_scene(options.scene, options.overrides());
+        Warnings warnings;
+        Simulation simulation(scene, options.simulation(), warnings);
+        char command = 0;
+        while (::read(in, &command, 1) == 1 && command != kEnd) {
+            if (command == kFrame) write_line(out, kDone, frame_line(simulation));
+            else write_line(out, kDone, command == kHash ? simulation.hash() : "");
+        }
+    } catch (const UserError& error) {
+        write_line(out, kUserError, error.what());
+    } catch (const std::exception& error) {
+        write_line(out, kRunError, error.what());
+    }
+    ::_exit(0);
+}
+
+std::string FrameWorker::ask(char command) {
+    // A worker that has failed has said so already, and does not listen any more.
+    const ssize_t sent = ::write(to_worker_, &command, 1);
+    const std::string answer = read_line(from_worker_);
+    if (sent != 1 && answer.empty()) throw RunError(devices_ + ": the worker process has ended");
+    if (answer.empty()) throw RunError(devices_ + ": the worker process was killed");
+    const std::string text = answer.substr(1);
+    if (answer[0] == kUserError) throw UserError(text);
+    if (answer[0] == kRunError) throw RunError(devices_ + ": " + text);
+    return text;
+}
+
+void FrameWorker::wait_until_ready() { ask(kReady); }
+std::string FrameWorker::state_hash() { return ask(kHash); }
+
+FrameSample FrameWorker::advance() {
+    std::istringstream in(ask(kFrame));
+    FrameSample s;
+    in >> s.total >> s.planned >> s.measured >> s.plan >> s.utilisation >> s.energy >> s.mixed;
+    return s;
+}
+
+}  // namespace weft

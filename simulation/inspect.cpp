@@ -1,0 +1,222 @@
+#include "simulation/inspect.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "runtime/trace/tables.h"
+#include "simulation/diagnostics.h"
+#include "simulation/scene/obstacle_shapes.h"
+
+namespace weft {
+
+namespace {
+
+using kernels::KernelInfo;
+
+// ---- what is there: all of it is read off the solver's own bodies and steps ----
+
+std::vector<Inspection::Task> find_tasks(Solver& solver) {
+    std::vector<Inspection::Task> tasks;
+    for (const std::string& kind : solver.kinds()) tasks.push_back({kind, 0, {}});
+    const Step step = solver.make_step({});
+    for (const Task& task : step.tasks()) {
+        Inspection::Task& entry = tasks[static_cast<std::size_t>(task.body->kind)];
+        ++entry.per_substep;
+        if (!entry.launches.empty()) continue;  // bodies of a kind differ in arguments only
+        for (const Launch& launch : task.body->launches) {
+            const Segments& segments = launch.segments;
+            entry.launches.push_back({std::string(launch.kernel->name),
+                                      segments.item_count(0, segments.strip_count),
+                                      segments.colour_count});
+        }
+    }
+    std::erase_if(tasks, [](const Inspection::Task& task) { return task.per_substep == 0; });
+    return tasks;
+}
+
+struct ByName {
+    bool operator()(const KernelInfo* a, const KernelInfo* b) const { return a->name < b->name; }
+};
+using KernelSet = std::set<const KernelInfo*, ByName>;
+
+KernelSet used_kernels(const Solver& solver) {
+    KernelSet used;
+    for (const TaskBody* body : solver.bodies()) {
+        for (const Launch& launch : body->launches) used.insert(launch.kernel);
+    }
+    return used;
+}
+
+std::vector<Inspection::Buffer> find_buffers(const Solver& solver) {
+    std::vector<const BufferStorage*> buffers;
+    const auto add = [&](const BufferStorage* buffer) {
+        if (buffer == nullptr || std::count(buffers.begin(), buffers.end(), buffer) > 0) return;
+        buffers.push_back(buffer);
+    };
+    for (const TaskBody* body : solver.bodies()) {
+        for (const Launch& launch : body->launches) {
+            for (const Argument& argument : launch.arguments) add(argument.buffer);
+            add(launch.segments.begin);
+        }
+    }
+    std::vector<Inspection::Buffer> list;
+    for (const BufferStorage* buffer : buffers) list.push_back({buffer->name(), buffer->bytes()});
+    return list;
+}
+
+std::vector<std::string> columns_of(const trace::RowType& type) {
+    std::vector<std::string> names;
+    const int count = H5Tget_nmembers(type.file());
+    for (int i = 0; i < count; ++i) {
+        char* name = H5Tget_member_name(type.file(), static_cast<unsigned>(i));
+        names.emplace_back(name);
+        H5free_memory(name);
+    }
+    return names;
+}
+
+/// As TraceWriter makes them for one device.
+std::vector<Inspection::Dataset> find_datasets(const Model& model) {
+    const hdf5::Session session;
+    return {{"run/scene", {}},
+            {"run/kinds", {}},
+            {"run/energies", {}},
+            {"run/devices", {}},
+            {"frames", columns_of(trace::frame_row_type(1))},
+            {"plan", columns_of(trace::plan_row_type())},
+            {"executions", columns_of(trace::execution_row_type())},
+            {"costs", columns_of(trace::cost_row_type())},
+            {"energies", columns_of(trace::energy_row_type(energy_names(model)))}};
+}
+
+// ---- what is not there ----
+
+/// Collects what was left out; each unused kernel goes to the first reason that claims it.
+class LeftOutList {
+public:
+    explicit LeftOutList(const KernelSet& used) {
+        for (const KernelInfo* kernel : kernels::all_kernels()) {
+            if (used.count(kernel) == 0) unused_.emplace_back(kernel->name);
+        }
+    }
+
+    void add(const std::string& what, const std::string& why,
+             const std::function<bool(const std::string&)>& claims) {
+        Inspection::LeftOut entry{what, why, {}};
+        std::erase_if(unused_, [&](const std::string& kernel) {
+            if (!claims(kernel)) return false;
+            entry.kernels.push_back(kernel);
+            return true;
+        });
+        list_.push_back(std::move(entry));
+    }
+    void add(const std::string& what, const std::string& why, const std::string& kernel = "") {
+        add(what, why, [&](const std::string& name) { return name == kernel; });
+    }
+
+    std::vector<Inspection::LeftOut> take(const std::string& why_the_rest) {
+        if (!unused_.empty()) add("other kernels", why_the_rest, [](const std::string&) { return true; });
+        return std::move(list_);
+    }
+
+private:
+    std::vector<std::string> unused_;
+    std::vector<Inspection::LeftOut> list_;
+};
+
+template <class Range, class Test>
+bool any_of(const Range& range, Test test) {
+    return std::any_of(range.begin(), range.end(), test);
+}
+
+void add_bending(LeftOutList& list, const Model& model) {
+    if (model.hinges) return;
+    const bool asked = any_of(model.scene.cloths, [](const Cloth& c) { return c.bend.has_value(); });
+    list.add("bending",
+             asked ? "no edge lies between exactly two triangles"
+                   : "no cloth has bend.stiffness above 0",
+             "project_hinges");
+}
+
+void add_obstacles(LeftOutList& list, const Model& model) {
+    const std::string push = "push_out_of_";
+    const std::string rub = "rub_on_";
+    const auto is_rub = [&](const std::string& kernel) { return kernel.starts_with(rub); };
+    if (!model.obstacles) {
+        list.add("obstacles", "the scene has no [[obstacle]]", [&](const std::string& kernel) {
+            return kernel.starts_with(push) || is_rub(kernel);
+        });
+        list.add("friction", "the scene has no [[obstacle]]");
+        return;
+    }
+    if (!model.obstacles->have_friction()) {
+        list.add("friction", "no obstacle has friction above 0", is_rub);
+    }
+    for (const ObstacleShape& shape : obstacle_shapes()) {
+        const auto is_shape = [&](const Obstacle& o) { return o.shape == shape.name; };
+        const auto smooth = [&](const Obstacle& o) { return is_shape(o) && !o.friction; };
+        const auto rough = [&](const Obstacle& o) { return is_shape(o) && o.friction.has_value(); };
+        const auto& obstacles = model.scene.obstacles;
+        if (!any_of(obstacles, is_shape)) {
+            list.add("shape " + shape.name, "no obstacle has this shape",
+                     [&](const std::string& kernel) {
+                         return kernel == push + shape.name || kernel == rub + shape.name;
+                     });
+        } else if (!any_of(obstacles, smooth)) {
+            list.add(shape.name + " without friction", "every such obstacle has friction",
+                     push + shape.name);
+        } else if (!any_of(obstacles, rough) && model.obstacles->have_friction()) {
+            list.add(shape.name + " with friction", "no such obstacle has friction",
+                     rub + shape.name);
+        }
+    }
+}
+
+void add_pins(LeftOutList& list, const Model& model) {
+    if (!any_of(model.scene.cloths, [](const Cloth& c) { return !c.pins.empty(); })) {
+        list.add("pins", "no cloth has pins");
+    }
+    if (!model.moving_pins) list.add("moving pins", "no pins have a motion", "move_pins");
+}
+
+void add_damping(LeftOutList& list, const Model& model) {
+    if (model.damped) {
+        list.add("velocities without damping", "a cloth has damping", "update_velocities");
+    } else {
+        list.add("damping", "no cloth has damping above 0", "update_damped_velocities");
+    }
+}
+
+std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelSet& used) {
+    LeftOutList list(used);
+    add_bending(list, model);
+    add_obstacles(list, model);
+    add_pins(list, model);
+    add_damping(list, model);
+    if (model.strips.count() < 2) {
+        list.add("seams", "the mesh is too small or too short for a second strip");
+    }
+    list.add("transfers (dataset)", "only a mixture of devices with memories of their own has them");
+    return list.take("the scene's solver does not use them");
+}
+
+}  // namespace
+
+Inspection inspect(const Model& model, Solver& solver) {
+    Inspection result;
+    result.vertices = model.vertex_count();
+    result.triangles = static_cast<int>(model.triangles.size());
+    result.strips = model.strips.count();
+    result.tasks = find_tasks(solver);
+    const KernelSet used = used_kernels(solver);
+    for (const KernelInfo* kernel : used) {
+        result.kernels.push_back({std::string(kernel->name), std::string(kernel->file)});
+    }
+    result.buffers = find_buffers(solver);
+    result.datasets = find_datasets(model);
+    result.left_out = find_left_out(model, used);
+    return result;
+}
+
+}  // namespace weft

@@ -1,0 +1,163 @@
+"""Every mistake in a request: one message that says what and where, exit code 2, no output folder."""
+
+import os
+import pathlib
+import resource
+
+import pytest
+from weft_program import SHEET, expect_error, weft
+
+GRID = 'grid = { size = [1.0, 1.0], resolution = [12, 12] }'
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "scene.toml").write_text(SHEET)
+    return tmp_path
+
+
+def run(folder, *arguments, **options):
+    return weft("run", "scene.toml", "--device", "cpu/1", *arguments, cwd=folder, **options)
+
+
+def expect_refused(folder, result, *parts):
+    expect_error(result, 2, *parts)
+    assert not (folder / "out").exists()
+
+
+SCENE_MISTAKES = {
+    "broken_toml": ("frames = 3", "frames = = 3", ["scene.toml:4:10", "not valid TOML"]),
+    "unknown_key": ("frames = 3", "framez = 3", ["scene.toml:4:1", "did you mean 'frames'?"]),
+    "wrong_type": ("frames = 3", 'frames = "three"', ["scene.toml:4:10", "expected an integer"]),
+    "negative_density": ("density = 0.2", "density = -0.2", ["density = -0.2", "greater than 0"]),
+    "negative_time_step": ("dt = 0.02", "dt = -0.02", ["scene.dt = -0.02", "greater than 0"]),
+    "negative_stiffness": ("1.0e4", "-1.0e4", ["stiffness = -10000", "greater than 0"]),
+    "zero_substeps": ("substeps = 2", "substeps = 0", ["scene.substeps = 0", "at least 1"]),
+    "solver_of_later": ('"xpbd"', '"vbd"', ['"vbd"', "not available in this version"]),
+    "no_cloth": ("[[cloth]]", "[cloth]", ["scene.toml:"]),
+}
+
+
+@pytest.mark.parametrize("name", SCENE_MISTAKES)
+def test_scene(folder, name):
+    old, new, parts = SCENE_MISTAKES[name]
+    assert old in SHEET
+    (folder / "scene.toml").write_text(SHEET.replace(old, new))
+    expect_refused(folder, run(folder), *parts)
+    expect_error(weft("inspect", "scene.toml", cwd=folder), 2, *parts)
+
+
+def test_missing_scene(folder):
+    result = weft("run", "nowhere.toml", cwd=folder)
+    expect_refused(folder, result, "nowhere.toml", "no such scene file")
+
+
+MESHES = {
+    "empty": ("", ["mesh.obj"]),
+    "not_triangles": ("v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n",
+                      ["mesh.obj:5", "triangle"]),
+    "index_out_of_range": ("v 0 0 0\nv 1 0 0\nv 1 0 1\nf 1 2 4\n", ["mesh.obj:4", "4"]),
+    "not_a_number": ("v 0 0 0\nv 1 nan 0\nv 1 0 1\nf 1 2 3\n", ["mesh.obj:2", "nan"]),
+    "degenerate": ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", ["mesh.obj", "area"]),
+    "twice_the_same_vertex": ("v 0 0 0\nv 1 0 0\nv 2 0 1\nf 1 2 2\n", ["mesh.obj:4"]),
+}
+
+
+def use_mesh(folder, text):
+    (folder / "mesh.obj").write_text(text)
+    (folder / "scene.toml").write_text(SHEET.replace(GRID, 'mesh = "mesh.obj"'))
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_mesh(folder, name):
+    text, parts = MESHES[name]
+    use_mesh(folder, text)
+    expect_refused(folder, run(folder), *parts)
+
+
+def test_missing_mesh(folder):
+    use_mesh(folder, "")
+    (folder / "mesh.obj").unlink()
+    expect_refused(folder, run(folder), "mesh.obj")
+
+
+def test_unreferenced_vertex_is_only_a_warning(folder):
+    use_mesh(folder, "v 0 0 0\nv 5 5 5\nv 1 0 0\nv 1 0 1\nf 1 3 4\n")
+    result = run(folder)
+    assert result.returncode == 0, result.stderr
+    warnings = [line for line in result.stderr.splitlines() if "warning" in line]
+    assert len(warnings) == 1 and warnings[0].startswith("weft: warning: ")
+    assert "mesh.obj" in warnings[0] and "state hash" in result.stdout
+
+
+COMMAND_LINES = {
+    "unknown_device": (["--device", "cqu"], ["'cqu'", "unknown device", "cpu/N"]),
+    "device_zero_cores": (["--device", "cpu/0"], ["cpu/0", "at least 1"]),
+    "too_many_cores": (["--device", "cpu/10000"], ["10000 cores"]),
+    "unknown_plan": (["--plan", "exakt"], ["did you mean 'exact'?"]),
+    "plan_of_later": (["--plan", "async"], ["--plan async", "not in this version"]),
+    "unknown_solver": (["--solver", "xpdb"], ["--solver xpdb", "did you mean 'xpbd'?"]),
+    "unknown_math": (["--math", "quick"], ["--math", "'quick'"]),
+    "unknown_option": (["--framez", "3"], ["--framez", "did you mean"]),
+    "frames_no_number": (["--frames", "few"], ["--frames few", "expected an integer"]),
+    "zero_substeps": (["--substeps", "0"], ["--substeps 0", "at least 1"]),
+    "unknown_key": (["--set", "scene.framez=3"], ["--set scene.framez=3", "did you mean"]),
+    "set_without_value": (["--set", "scene.frames"], ["--set scene.frames"]),
+    "wrong_strips": (["--strips", "1,1"], ["2 devices", "there are 1 devices"]),
+    "resume_of_later": (["--resume"], ["--resume", "not in this version"]),
+}
+
+
+@pytest.mark.parametrize("name", COMMAND_LINES)
+def test_command_line(folder, name):
+    arguments, parts = COMMAND_LINES[name]
+    device = [] if "--device" in arguments else ["--device", "cpu/1"]
+    result = weft("run", "scene.toml", *device, *arguments, cwd=folder)
+    expect_refused(folder, result, *parts)
+
+
+def test_opencl_without_a_platform(folder):
+    nothing = dict(os.environ, OCL_ICD_VENDORS="/nonexistent")
+    for device in ["opencl", "opencl:0", "cpu/1+opencl:0/1"]:
+        result = weft("run", "scene.toml", "--device", device, cwd=folder, env=nothing)
+        expect_refused(folder, result, device.split("+")[-1], "no OpenCL platform was found")
+
+
+def test_hybrid_without_a_platform_is_the_cpu(folder):
+    nothing = dict(os.environ, OCL_ICD_VENDORS="/nonexistent")
+    result = weft("run", "scene.toml", cwd=folder, env=nothing)
+    assert result.returncode == 0 and "tbb" in result.stdout
+
+
+def test_output_folder_that_cannot_be_made(folder):
+    (folder / "file").write_text("")
+    expect_error(run(folder, "--out", "file/below"), 2, "--out file/below", "not a folder")
+    expect_error(run(folder, "--out", "/proc/weft"), 2, "--out /proc/weft")
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="nothing is read-only for root")
+def test_read_only_output_folder(folder):
+    (folder / "locked").mkdir(mode=0o555)
+    expect_error(run(folder, "--out", "locked"), 2, "--out locked", "cannot be written")
+
+
+def limit_file_size(size):
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+@pytest.mark.parametrize("left_out, name", [("--no-trace", "frames.vtkhdf"),
+                                            ("--no-geometry", "trace.h5")])
+def test_full_disk(folder, left_out, name):
+    """A limit on file sizes stands for it: the same path through the program, and no root needed."""
+    arguments = ["--frames", "500", "--set", "scene.size=4000", "--iterations", "20", left_out]
+    result = run(folder, *arguments, preexec_fn=limit_file_size(600_000))
+    expect_error(result, 1, f"out/sheet/{name}: cannot write")
+    assert not (folder / "out/sheet/summary.json").exists()
+    assert (folder / "out/sheet" / name).stat().st_size <= 600_000
+
+
+@pytest.mark.skipif(not pathlib.Path("/dev/full").exists(), reason="needs /dev/full")
+def test_full_disk_behind_stdout(folder):
+    with open("/dev/full", "w") as full:
+        result = weft("inspect", "scene.toml", cwd=folder, stdout=full)
+    assert result.returncode == 1 and "standard output" in result.stderr

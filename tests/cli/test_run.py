@@ -1,0 +1,186 @@
+"""What a run leaves behind: finished, overwritten, diverged, stopped and killed."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+
+import h5py
+import numpy
+import pytest
+from weft_program import LONG, SHEET, WEFT, expect_error, start_weft, wait_for_frames, weft
+from weft_program import weft_json
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "scene.toml").write_text(SHEET)
+    return tmp_path
+
+
+def run(folder, *arguments, **options):
+    return weft("run", "scene.toml", "--device", "cpu/1", *arguments, cwd=folder, **options)
+
+
+def geometry_steps(path):
+    with h5py.File(path) as file:
+        count = int(file["VTKHDF/Steps"].attrs["NSteps"])
+        vertices = int(file["VTKHDF/NumberOfPoints"][0])
+        return file["VTKHDF/Points"][: count * vertices].reshape(count, vertices, 3)
+
+
+def test_all_files(folder):
+    result = run(folder)
+    assert result.returncode == 0, result.stderr
+    out = folder / "out/sheet"
+    names = {"trace.h5", "frames.vtkhdf", "frames.xdmf", "summary.json"}
+    assert {path.name for path in out.iterdir()} == names
+
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["finished"] and summary["frames"] == 3
+    assert f"state hash       {summary['state_hash']}" in result.stdout
+    for path in summary["files"].values():
+        assert (folder / path).exists()
+    with h5py.File(out / "trace.h5") as trace:
+        assert trace.attrs["finished"] and trace.attrs["state_hash"] == summary["state_hash"]
+        assert list(trace["frames"]["frame"]) == [0, 1, 2]
+        assert "run scene.toml --device cpu/1" in trace["run"].attrs["command"]
+        assert trace["run/scene"].asstr()[()] == SHEET
+    positions = geometry_steps(out / "frames.vtkhdf")
+    assert positions.shape == (4, 144, 3)  # the initial state, and each frame
+    fallen = 0.5 * 9.81 * (3 * 0.02) ** 2
+    assert positions[-1, :, 1] == pytest.approx(-fallen, rel=0.2)
+
+
+def test_outputs_can_be_left_out(folder):
+    result = run(folder, "--no-trace", "--no-geometry")
+    assert result.returncode == 0
+    assert [path.name for path in (folder / "out/sheet").iterdir()] == ["summary.json"]
+
+
+def test_json_is_all_of_stdout_and_quiet_is_quiet(folder):
+    result = run(folder, "--json", "--quiet")
+    assert result.stderr == ""
+    assert json.loads(result.stdout) == json.loads((folder / "out/sheet/summary.json").read_text())
+
+
+def test_schema_needs_no_scene():
+    schema = json.loads(weft("run", "--print-schema").stdout)
+    assert "cloth" in schema["properties"]
+
+
+def test_overrides_stand_in_the_trace(folder):
+    assert run(folder, "--frames", "2", "--set", "cloth.density=0.5").returncode == 0
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        settings = trace["run/settings"].attrs
+        assert settings["set"].splitlines() == ["cloth.density=0.5", "scene.frames=2"]
+        assert settings["frames"] == "2" and settings["math"] == "strict"
+
+
+def test_finished_run_is_kept_without_force(folder):
+    assert run(folder).returncode == 0
+    before = (folder / "out/sheet/trace.h5").read_bytes()
+    expect_error(run(folder), 2, "out/sheet", "finished run", "--force")
+    assert (folder / "out/sheet/trace.h5").read_bytes() == before
+    assert run(folder, "--force", "--no-geometry").returncode == 0
+    assert not (folder / "out/sheet/frames.vtkhdf").exists()  # not the old one beside a new trace
+
+
+# At rest, until a pin runs away so fast that squared lengths overflow.
+DIVERGING = SHEET.replace("frames = 3", "frames = 6") + """
+[cloth.pins]
+corners = ["x-z-"]
+motion.keyframes = [{ time = 0.04 }, { time = 0.05, translate = [1.0e30, 0.0, 0.0] }]
+[guard]
+max_speed = 1.0e30
+max_strain = 1.0e30
+"""
+
+
+def test_diverging_run_keeps_the_frames_before(folder):
+    (folder / "scene.toml").write_text(DIVERGING)
+    expect_error(run(folder), 1, "frame 2", "substep 0", "task '", "vertex", "cloth 'sheet'")
+    out = folder / "out/sheet"
+    assert not (out / "summary.json").exists()
+    with h5py.File(out / "trace.h5") as trace:
+        assert list(trace["frames"]["frame"]) == [0, 1] and not trace.attrs["finished"]
+    positions = geometry_steps(out / "frames.vtkhdf")
+    assert len(positions) == 3 and numpy.isfinite(positions).all()
+
+    (folder / "scene.toml").write_text(SHEET)
+    again = run(folder)  # what did not finish needs no --force
+    assert again.returncode == 0 and "replacing a run that did not finish" in again.stderr
+
+
+def test_exploding_run_names_the_guard(folder):
+    (folder / "scene.toml").write_text(SHEET + "\n[guard]\nmax_speed = 0.3\n")
+    expect_error(run(folder), 1, "frame 1", "substep", "vertex", "guard.max_speed = 0.3")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signal_ends_a_run_in_good_order(folder, number):
+    (folder / "scene.toml").write_text(LONG)
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", cwd=folder)
+    wait_for_frames(folder / "out/sheet/trace.h5", 5, process)
+    process.send_signal(number)
+    stdout, stderr = process.communicate(timeout=30)
+    assert process.returncode == 128 + number, stderr
+    assert f"stopped by {number.name}" in stderr
+    summary = json.loads((folder / "out/sheet/summary.json").read_text())
+    assert not summary["finished"] and summary["state_hash"] in stdout
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:  # plainly: it was closed
+        assert len(trace["frames"]) == summary["frames"] >= 5
+    assert len(geometry_steps(folder / "out/sheet/frames.vtkhdf")) == summary["frames"] + 1
+
+
+def test_killed_run_leaves_all_complete_frames(folder):
+    (folder / "scene.toml").write_text(LONG)
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", cwd=folder)
+    wait_for_frames(folder / "out/sheet/trace.h5", 20, process)
+    process.kill()
+    process.communicate()
+    with h5py.File(folder / "out/sheet/trace.h5", swmr=True) as trace:
+        frames = trace["frames"]["frame"]
+        assert list(frames) == list(range(len(frames))) and len(frames) >= 20
+        tasks = numpy.bincount(trace["plan"]["frame"])[: len(frames)]
+        executed = numpy.bincount(trace["executions"]["frame"])[: len(frames)]
+        assert (executed == 200 * tasks).all()  # each task in each substep
+    steps = geometry_steps(folder / "out/sheet/frames.vtkhdf")
+    assert abs(len(steps) - 1 - len(frames)) <= 1
+    result = weft("trace", "summary", "out/sheet/trace.h5", cwd=folder)
+    assert result.returncode == 0 and "not finished" in result.stdout
+
+
+def test_folder_belongs_to_one_run_at_a_time(folder):
+    (folder / "scene.toml").write_text(LONG)
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", cwd=folder)
+    try:
+        wait_for_frames(folder / "out/sheet/trace.h5", 1, process)
+        expect_error(run(folder), 2, "out/sheet", "another run")
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_progress_is_a_bar_on_a_terminal(folder):
+    reader, writer = pty.openpty()
+    command = [WEFT, "run", "scene.toml", "--device", "cpu/1", "--frames", "400", "--no-geometry"]
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=writer)
+    os.close(writer)
+    talk = b""
+    try:
+        while block := os.read(reader, 4096):
+            talk += block
+    except OSError:
+        pass  # how Linux says that the other end is closed
+    process.communicate()
+    os.close(reader)
+    assert process.returncode == 0
+    assert b"left" in talk and b"/400 [" in talk
+    assert talk.endswith(b"\r\x1b[K")  # the bar is gone at the end
+
+
+def test_fast_math_runs(folder):
+    summary = weft_json("run", "scene.toml", "--math", "fast", "--device", "cpu/1", cwd=folder)
+    assert summary["finished"]

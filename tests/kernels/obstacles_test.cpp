@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "kernels/obstacles/box.h"
+#include "kernels/obstacles/capsule.h"
+#include "kernels/obstacles/plane.h"
+#include "kernels/obstacles/sphere.h"
+#include "simulation/mesh/vec3.h"
+#include "tests/kernels/kernel_case.h"
+
+namespace weft::test {
+namespace {
+
+constexpr float kThickness = 0.125f;
+constexpr float kFriction = 0.5f;
+
+Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
+
+/// One vertex and one obstacle at the origin.
+struct Contact {
+    Buffer<float4> positions{"positions", 1};
+    Buffer<float4> previous{"previous", 1};
+    Buffer<float4> rows{"obstacles", WEFT_OBSTACLE_ROWS};
+
+    Contact(Vec3 point, float4 dimensions, float inverse_mass = 1.0f) {
+        positions[0] = {static_cast<float>(point.x), static_cast<float>(point.y),
+                        static_cast<float>(point.z), inverse_mass};
+        previous[0] = positions[0];
+        for (const std::size_t map : {0, 3}) {
+            rows[map] = {1, 0, 0, 0};
+            rows[map + 1] = {0, 1, 0, 0};
+            rows[map + 2] = {0, 0, 1, 0};
+        }
+        rows[6] = dimensions;
+        rows[7] = {kThickness, kFriction, 0, 0};
+    }
+    template <class Kernel>
+    Vec3 push(Kernel kernel) {
+        return run(launch(kernel, Segments{}, positions, rows, 1, 0, 0));
+    }
+    template <class Kernel>
+    Vec3 rub(Kernel kernel) {
+        return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
+    }
+
+private:
+    Vec3 run(const Launch& launch) {
+        run_on_host(launch, launch.kernel->scalar, 0, 1);
+        return vec(positions[0]);
+    }
+};
+
+void expect_at(Vec3 actual, Vec3 expected, double tolerance = 1e-6) {
+    EXPECT_LE(length(actual - expected), tolerance)
+        << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
+}
+
+/// Where push_out_of_... moves a point to.
+template <class Kernel>
+Vec3 pushed(Kernel kernel, Vec3 point, float4 dimensions, float inverse_mass = 1.0f) {
+    return Contact(point, dimensions, inverse_mass).push(kernel);
+}
+
+TEST(Obstacles, SpherePushesToItsSurfaceAndThickness) {
+    const auto& sphere = kernels::push_out_of_sphere;
+    const float4 d{0.5f, 0, 0, 0};
+    expect_at(pushed(sphere, {0.3, 0, 0}, d), {0.625, 0, 0});
+    expect_at(pushed(sphere, {0.3, -0.4, 0}, d), {0.375, -0.5, 0});   // on the surface
+    expect_at(pushed(sphere, {0, 0.55, 0}, d), {0, 0.625, 0});        // within the thickness
+    expect_at(pushed(sphere, {0, 0, 0}, d), {0, 0.625, 0});           // at the centre: upwards
+    expect_at(pushed(sphere, {0, 0, -0.75}, d), {0, 0, -0.75}, 0.0);  // outside
+}
+
+TEST(Obstacles, PlanePushesUpwards) {
+    const auto& plane = kernels::push_out_of_plane;
+    expect_at(pushed(plane, {5, -3, 2}, {}), {5, kThickness, 2});
+    expect_at(pushed(plane, {5, 0.125, 2}, {}), {5, kThickness, 2}, 0.0);
+    expect_at(pushed(plane, {5, 0.25, 2}, {}), {5, 0.25, 2}, 0.0);
+}
+
+TEST(Obstacles, CapsuleIsARoundedSegment) {
+    const auto& capsule = kernels::push_out_of_capsule;
+    const float4 d{0.5f, 1.0f, 0, 0};
+    expect_at(pushed(capsule, {0.25, 0.9, 0}, d), {0.625, 0.9, 0});        // beside the segment
+    expect_at(pushed(capsule, {0, 1.25, 0}, d), {0, 1.625, 0});            // above its end
+    expect_at(pushed(capsule, {0.3, -1.4, 0}, d), {0.375, -1.5, 0});       // below, sideways
+    expect_at(pushed(capsule, {0, 0.5, 0}, d), {0, 1.125, 0});             // on the axis: upwards
+    expect_at(pushed(capsule, {0, 1.7, 0}, d), {0, 1.7f, 0}, 0.0);         // outside
+}
+
+TEST(Obstacles, BoxPushesThroughItsNearestFaceAndRoundsItsEdges) {
+    const auto& box = kernels::push_out_of_box;
+    const float4 d{1.0f, 0.5f, 0.75f, 0};
+    expect_at(pushed(box, {0.9, 0.1, 0}, d), {1.125, 0.1, 0});
+    expect_at(pushed(box, {0.1, -0.4, 0}, d), {0.1, -0.625, 0});
+    expect_at(pushed(box, {0, 0, -0.7}, d), {0, 0, -0.875});
+    expect_at(pushed(box, {0, 0, 0}, d), {0, 0.625, 0});     // the nearest face is y's
+    expect_at(pushed(box, {0, 0.5, 0}, d), {0, 0.625, 0});   // on a face
+    expect_at(pushed(box, {1.0, 0.5, 0.75}, d), {1.125, 0.5, 0.75});  // on a corner: one face
+    expect_at(pushed(box, {1.0 + 0.045, 0.5 + 0.06, 0}, d), {1.075, 0.6, 0});  // outside an edge
+    expect_at(pushed(box, {1.5, 0.75, 0}, d), {1.5, 0.75, 0}, 0.0);
+}
+
+TEST(Obstacles, FarFromTheOriginEverythingIsOutsideToTheBit) {
+    const Vec3 far{3.3, 4.7, -5.1};
+    const Vec3 same{3.3f, 4.7f, -5.1f};
+    EXPECT_EQ(pushed(kernels::push_out_of_sphere, far, {0.5f, 0, 0, 0}), same);
+    EXPECT_EQ(pushed(kernels::push_out_of_capsule, far, {0.5f, 1, 0, 0}), same);
+    EXPECT_EQ(pushed(kernels::push_out_of_box, far, {1, 1, 1, 0}), same);
+    EXPECT_EQ(pushed(kernels::push_out_of_plane, far, {}), same);
+    EXPECT_EQ(Contact(far, {0.5f, 0, 0, 0}).rub(kernels::rub_on_sphere), same);
+    EXPECT_EQ(Contact(far, {0.5f, 1, 0, 0}).rub(kernels::rub_on_capsule), same);
+    EXPECT_EQ(Contact(far, {1, 1, 1, 0}).rub(kernels::rub_on_box), same);
+    EXPECT_EQ(Contact(far, {}).rub(kernels::rub_on_plane), same);
+}
+
+TEST(Obstacles, HeldVerticesNeverMove) {
+    const Vec3 inside{0.25, -0.125, 0};
+    EXPECT_EQ(pushed(kernels::push_out_of_sphere, inside, {0.5f, 0, 0, 0}, 0.0f), inside);
+    EXPECT_EQ(pushed(kernels::push_out_of_capsule, inside, {0.5f, 1, 0, 0}, 0.0f), inside);
+    EXPECT_EQ(pushed(kernels::push_out_of_box, inside, {1, 1, 1, 0}, 0.0f), inside);
+    EXPECT_EQ(pushed(kernels::push_out_of_plane, inside, {}, 0.0f), inside);
+    Contact rubbed(inside, {}, 0.0f);
+    rubbed.previous[0].x = 5.0f;
+    EXPECT_EQ(rubbed.rub(kernels::rub_on_plane), inside);
+}
+
+TEST(Obstacles, FrictionHoldsUpToItsShareOfTheDepthAndNoFurther) {
+    // Depth 0.225 + 0.125, so friction takes back 0.175 at most.
+    for (const double way : {0.02, 0.17, 0.18, 0.5}) {
+        Contact contact({way, -0.225, 0}, {});
+        contact.previous[0].x = 0.0f;
+        const double slid = std::max(0.0, way - 0.35 * static_cast<double>(kFriction));
+        expect_at(contact.rub(kernels::rub_on_plane), {slid, kThickness, 0});
+    }
+}
+
+TEST(Obstacles, MovingObstacleCarriesWhatItHolds) {
+    Contact contact({0, -0.225, 0}, {});
+    contact.rows[0].w = -0.1f;  // where the plane is now, is 0.1 m along x from where it was
+    expect_at(contact.rub(kernels::rub_on_plane), {0.1, kThickness, 0});
+    Contact fast({0, -0.225, 0}, {});
+    fast.rows[0].w = -10.0f;
+    expect_at(fast.rub(kernels::rub_on_plane), {0.175, kThickness, 0});
+}
+
+TEST(Obstacles, PlacementTurnsAndMovesTheShape) {
+    // A box turned by a quarter about z and moved to x = 2: its long side now lies along y.
+    Contact contact({2.0, 0.875, 0}, {1.0f, 0.5f, 0.5f, 0});
+    contact.rows[0] = {0, 1, 0, 0};
+    contact.rows[1] = {-1, 0, 0, 2};
+    expect_at(contact.push(kernels::push_out_of_box), {2.0, 1.125, 0});
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,117 @@
+#include "runtime/device_list.h"
+
+#include <gtest/gtest.h>
+
+#include "runtime/cores.h"
+#include "runtime/error.h"
+#include "runtime/opencl/opencl_device.h"
+
+namespace weft::test {
+namespace {
+
+std::string error_of(const std::string& list) {
+    try {
+        open_devices(list);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+struct Bad {
+    std::string list;
+    std::string named;  ///< what the message has to say
+};
+
+TEST(DeviceList, EveryMistakeIsAnErrorThatNamesIt) {
+    const Bad bad[] = {
+        {"", "''"},
+        {"+", "''"},
+        {"cpu/1+", "''"},
+        {"+cpu/1", "''"},
+        {"gpu", "'gpu'"},
+        {"CPU", "'CPU'"},
+        {" cpu", "' cpu'"},
+        {"cpu,opencl", "'cpu,opencl'"},
+        {"cpu:0", "'cpu:0'"},
+        {"cpu/", "'cpu/'"},
+        {"cpu/0", "'cpu/0'"},
+        {"cpu/-1", "'-1'"},
+        {"cpu/x", "'x'"},
+        {"cpu/1x", "'1x'"},
+        {"cpu/1.5", "'1.5'"},
+        {"cpu/1/2", "'1/2'"},
+        {"cpu/99999999999", "'99999999999'"},
+        {"cpu/1+gpu", "'gpu'"},
+        {"hybrid/2", "'hybrid/2'"},
+        {"hybrid:0", "'hybrid:0'"},
+        {"opencl:", "'opencl:'"},
+        {"opencl:-1", "'-1'"},
+        {"opencl:x/1", "'x'"},
+        {"opencl/1:0", "'1:0'"},
+        {"opencl:0/", "'opencl:0/'"},
+        {"opencl:0/0", "'opencl:0/0'"},
+        {"opencl:0/x", "'x'"},
+        {"opencl:99", "'opencl:99'"},
+        {"opencl:0/1000", "1000"},
+        {"cpu/1000", "1000 cores"},
+    };
+    for (const Bad& b : bad) {
+        const std::string message = error_of(b.list);
+        EXPECT_NE(message.find(b.named), std::string::npos)
+            << "'" << b.list << "' gave '" << message << "'";
+        EXPECT_NE(message.find("--device"), std::string::npos) << message;
+    }
+}
+
+TEST(DeviceList, DevicesNeverShareACore) {
+    const std::size_t cores = usable_cores().size();
+    std::string list = "cpu/1";
+    for (std::size_t i = 1; i < cores; ++i) list += "+cpu/1";
+    EXPECT_EQ(open_devices(list).size(), cores);
+    EXPECT_NE(error_of(list + "+cpu/1").find("never share a core"), std::string::npos);
+    EXPECT_NE(error_of(list + "+cpu").find("never share a core"), std::string::npos);
+}
+
+TEST(DeviceList, UnnumberedPartsShareWhatIsLeft) {
+    const int cores = static_cast<int>(usable_cores().size());
+    EXPECT_EQ(open_devices("cpu").front()->info().units, cores);
+    EXPECT_EQ(open_devices("cpu/1").front()->info().units, 1);
+    if (cores < 2) return;
+    const auto devices = open_devices("cpu/1+cpu");
+    EXPECT_EQ(devices[0]->info().units, 1);
+    EXPECT_EQ(devices[1]->info().units, cores - 1);
+}
+
+TEST(DeviceList, KeepsItsOrder) {
+    if (opencl_devices().empty() || usable_cores().size() < 2) GTEST_SKIP();
+    const auto devices = open_devices("opencl:0/1+cpu/1");
+    EXPECT_EQ(devices[0]->info().kind, "opencl");
+    EXPECT_EQ(devices[1]->info().kind, "tbb");
+}
+
+TEST(DeviceList, EveryAvailableDeviceOpens) {
+    for (const std::string& name : available_devices()) {
+        EXPECT_EQ(open_devices(name).size(), 1U) << name;
+    }
+    EXPECT_FALSE(open_devices("hybrid").empty());
+    EXPECT_EQ(open_devices(hybrid_devices()).size(), open_devices("hybrid").size());
+}
+
+TEST(DeviceList, OptionsOverruleWhatADeviceSaysOfItself) {
+    EXPECT_EQ(open_devices("cpu/1").front()->info().lanes, 8);
+    DeviceOptions options;
+    options.cpu_lanes = options.opencl_lanes = 1;
+    options.memory = MemoryModel::kDiscrete;
+    EXPECT_EQ(open_devices("cpu/1", options).front()->info().lanes, 1);
+    if (opencl_devices().empty()) return;
+    const auto devices = open_devices("opencl:0", options);
+    EXPECT_EQ(devices.front()->info().memory, MemoryModel::kDiscrete);
+    EXPECT_EQ(devices.front()->info().lanes, 1);
+    EXPECT_TRUE(devices.front()->info().strict);
+    options.strict_math = false;
+    EXPECT_FALSE(open_devices("opencl:0", options).front()->info().strict);
+}
+
+}  // namespace
+}  // namespace weft::test

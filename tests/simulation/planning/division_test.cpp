@@ -1,0 +1,71 @@
+#include "simulation/planning/division.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+namespace weft::test {
+namespace {
+
+int sum(const Division& division) {
+    return std::accumulate(division.strips.begin(), division.strips.end(), 0);
+}
+
+TEST(Division, SingleGivesAllToOne) {
+    const Division division = Division::single(3, 20, 1);
+    EXPECT_EQ(division.strips, (std::vector<int>{0, 20, 0}));
+    EXPECT_EQ(division.devices(), std::vector<int>{1});
+    EXPECT_TRUE(division.cuts().empty());
+    EXPECT_EQ(division.mask(), 2U);
+}
+
+TEST(Division, CutsAreWhereRegionsMeet) {
+    const Division division{{3, 0, 5, 2}};
+    EXPECT_EQ(division.devices(), (std::vector<int>{0, 2, 3}));
+    EXPECT_EQ(division.cuts(), (std::vector<int>{3, 8}));
+    EXPECT_EQ(division.mask(), 0b1101U);
+}
+
+TEST(Division, ProportionalIsWithinAStripOfTheShares) {
+    const std::vector<std::vector<double>> speeds{{1.0}, {1.0, 1.0}, {1.0, 3.0}, {5.0, 0.1},
+                                                  {0.01, 100.0, 1.0}, {2.0, 3.0, 4.0, 5.0}};
+    for (const auto& speed : speeds) {
+        const double all = std::accumulate(speed.begin(), speed.end(), 0.0);
+        for (int strips = 1; strips <= 40; ++strips) {
+            const Division division = Division::proportional(strips, speed);
+            ASSERT_EQ(division.strips.size(), speed.size());
+            EXPECT_EQ(sum(division), strips);
+            for (std::size_t d = 0; d < speed.size(); ++d) {
+                EXPECT_GE(division.strips[d], 0);
+                if (strips < static_cast<int>(speed.size())) continue;
+                EXPECT_GE(division.strips[d], 1) << "everyone gets something";
+                // One strip by rounding, and one for each device that would otherwise have none.
+                EXPECT_NEAR(division.strips[d], speed[d] / all * strips,
+                            static_cast<double>(speed.size()));
+            }
+        }
+    }
+}
+
+TEST(Division, NeighboursAreOneStripAwayBothWays) {
+    for (const Division& division : {Division{{4, 6}}, Division{{0, 10}}, Division{{1, 0, 5}}}) {
+        for (const Division& neighbour : division.neighbours()) {
+            EXPECT_EQ(sum(neighbour), sum(division));
+            int moved = 0;
+            for (std::size_t d = 0; d < division.strips.size(); ++d) {
+                EXPECT_GE(neighbour.strips[d], 0);
+                moved += std::abs(neighbour.strips[d] - division.strips[d]);
+            }
+            EXPECT_EQ(moved, 2);
+            const auto back = neighbour.neighbours();
+            EXPECT_NE(std::find(back.begin(), back.end(), division), back.end());
+        }
+    }
+    EXPECT_EQ((Division{{4, 6}}.neighbours().size()), 2U);
+    EXPECT_EQ((Division{{0, 10}}.neighbours().size()), 1U);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,170 @@
+// The same scene gives the same bits on one core, on any OpenCL device, and on every mixture of them.
+
+#include <gtest/gtest.h>
+
+#include "runtime/opencl/opencl_device.h"
+#include "runtime/tbb/cpu_device.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/test_scenes.h"
+
+namespace weft::test {
+namespace {
+
+constexpr int kFrames = 4;
+
+struct TestScene {
+    const char* name;
+    const std::string& text;
+    /// From cpu/1. When results are meant to change, run this test and copy the new hash from its
+    /// message, and say in the change log that results changed.
+    const char* hash;
+};
+
+const TestScene kScenes[] = {
+    {"Everything", kEverything, "4f0878c76cf04b3783d0431c625fa8d1"},
+    {"SpringsOnly", kSpringsOnly, "877570edce90c2769df725c608bd8224"},
+};
+
+std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {
+    std::vector<std::unique_ptr<Device>> devices;
+    for (int i = 0; i < cpus; ++i) devices.push_back(make_cpu_device(1, {}));
+    for (const MemoryModel memory : opencl) {
+        DeviceOptions options;
+        options.memory = memory;
+        for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
+    }
+    return devices;
+}
+
+class Determinism : public testing::TestWithParam<TestScene> {
+protected:
+    Determinism() : scene_(parse_scene(GetParam().text, "test.toml")) {}
+
+    std::string hash_on(const std::string& devices, const DeviceOptions& options = {},
+                        PlanKind plan = PlanKind::kAuto) {
+        Warnings warnings;
+        SimulationOptions settings;
+        settings.devices = devices;
+        settings.device_options = options;
+        settings.plan = plan;
+        Simulation simulation(scene_, settings, warnings);
+        for (int frame = 0; frame < kFrames; ++frame) simulation.advance();
+        return simulation.hash();
+    }
+
+    /// Expects the known hash for each division of the strips among two devices.
+    void expect_same_for_every_cut(std::vector<std::unique_ptr<Device>> devices) {
+        ManualRun run(scene_, std::move(devices));
+        ASSERT_GE(run.strip_count(), 5) << "too few strips to say anything";
+        for (int cut = 0; cut <= run.strip_count(); ++cut) {
+            run.reset();
+            run.run(kFrames, Division{{cut, run.strip_count() - cut}});
+            ASSERT_EQ(run.hash(), GetParam().hash) << "cut at strip " << cut;
+        }
+    }
+
+    Scene scene_;
+};
+
+class OpenClDeterminism : public Determinism {
+protected:
+    void SetUp() override {
+        // All devices, before any list limits what the process sees of them.
+        if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    }
+};
+
+TEST_P(Determinism, KnownHashOnOneThread) { EXPECT_EQ(hash_on("cpu/1"), GetParam().hash); }
+
+TEST_P(Determinism, TwoThreads) {
+    ManualRun run(scene_, [] {
+        std::vector<std::unique_ptr<Device>> devices;
+        devices.push_back(make_cpu_device(2, {}));
+        return devices;
+    }());
+    run.run(kFrames);
+    EXPECT_EQ(run.hash(), GetParam().hash);
+    EXPECT_EQ(hash_on("cpu"), GetParam().hash);
+}
+
+TEST_P(Determinism, ScalarKernels) {
+    DeviceOptions options;
+    options.cpu_lanes = 1;
+    EXPECT_EQ(hash_on("cpu/1", options), GetParam().hash);
+}
+
+TEST_P(Determinism, EveryCutBetweenTwoCpuDevices) { expect_same_for_every_cut(opened({}, 2)); }
+
+TEST_P(OpenClDeterminism, Alone) {
+    EXPECT_EQ(hash_on("opencl:0/1"), GetParam().hash);
+    EXPECT_EQ(hash_on("opencl:0"), GetParam().hash);
+}
+
+TEST_P(OpenClDeterminism, EntryPointsOfGpus) {
+    DeviceOptions options;
+    options.per_colour = true;
+    options.opencl_lanes = 1;
+    EXPECT_EQ(hash_on("opencl:0", options), GetParam().hash);
+    options.memory = MemoryModel::kDiscrete;
+    EXPECT_EQ(hash_on("opencl:0", options), GetParam().hash);
+}
+
+TEST_P(OpenClDeterminism, EveryMixtureThatAPlannerMakes) {
+    for (const PlanKind plan : {PlanKind::kAuto, PlanKind::kExact, PlanKind::kSingle}) {
+        EXPECT_EQ(hash_on("cpu/1+opencl:0/1", {}, plan), GetParam().hash);
+    }
+    EXPECT_EQ(hash_on("opencl:0/1+cpu/1", {}, PlanKind::kExact), GetParam().hash);
+    EXPECT_EQ(hash_on("opencl:0/1+opencl:0/1", {}, PlanKind::kExact), GetParam().hash);
+    EXPECT_EQ(hash_on("hybrid"), GetParam().hash);
+    for (const MemoryModel memory : {MemoryModel::kDiscrete, MemoryModel::kMapped}) {
+        DeviceOptions options;
+        options.memory = memory;
+        EXPECT_EQ(hash_on("cpu/1+opencl:0/1", options, PlanKind::kExact), GetParam().hash);
+    }
+}
+
+TEST_P(OpenClDeterminism, EveryCutBetweenTheCpuAndAnyMemory) {
+    for (const MemoryModel memory :
+         {MemoryModel::kHost, MemoryModel::kDiscrete, MemoryModel::kMapped}) {
+        SCOPED_TRACE(name_of(memory));
+        expect_same_for_every_cut(opened({memory}, 1));
+    }
+}
+
+TEST_P(OpenClDeterminism, EveryDivisionAmongThreeDevices) {
+    ManualRun run(scene_, opened({MemoryModel::kDiscrete, MemoryModel::kDiscrete}, 1));
+    const int strips = run.strip_count();
+    std::string expected;
+    for (int first = 0; first <= strips; ++first) {
+        for (int second = 0; second <= strips - first; ++second) {
+            run.reset();
+            run.run(1, Division{{first, second, strips - first - second}});
+            if (first + second == 0) expected = run.hash();
+            ASSERT_EQ(run.hash(), expected) << first << " + " << second << " strips";
+        }
+    }
+}
+
+std::string name_of_scene(const testing::TestParamInfo<TestScene>& info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Determinism, testing::ValuesIn(kScenes), name_of_scene);
+INSTANTIATE_TEST_SUITE_P(Scenes, OpenClDeterminism, testing::ValuesIn(kScenes), name_of_scene);
+
+TEST(DeterminismScene, TouchesAllObstacles) {
+    // Each obstacle taken away changes the outcome, so none is there for nothing.
+    const Scene whole = parse_scene(kEverything, "test.toml");
+    ManualRun all(whole);
+    all.run(kFrames);
+    for (std::size_t i = 0; i < whole.obstacles.size(); ++i) {
+        Scene scene = whole;
+        scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(i));
+        ManualRun run(scene);
+        run.run(kFrames);
+        EXPECT_NE(run.hash(), all.hash()) << whole.obstacles[i].shape;
+    }
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,89 @@
+#include "tests/simulation/run/manual_run.h"
+
+#include "runtime/tbb/cpu_device.h"
+#include "simulation/output/state_hash.h"
+
+namespace weft::test {
+
+namespace {
+
+std::vector<std::unique_ptr<Device>> one_thread() {
+    std::vector<std::unique_ptr<Device>> devices;
+    devices.push_back(make_cpu_device(1, {}));
+    return devices;
+}
+
+}  // namespace
+
+ManualRun::ManualRun(const Scene& scene) : ManualRun(scene, one_thread()) {}
+
+ManualRun::ManualRun(const Scene& scene, std::vector<std::unique_ptr<Device>> devices)
+    : devices_(std::move(devices)) {
+    Warnings warnings;
+    model = std::make_unique<Model>(scene, warnings);
+    solver = make_solver(*model);
+    model->place(0.0);
+    const auto values = [](const Buffer<float4>& b) {
+        return std::vector<float4>(b.span().begin(), b.span().end());
+    };
+    first_positions_ = values(*model->positions);
+    first_velocities_ = values(*model->velocities);
+    std::vector<Device*> pointers;
+    for (const auto& device : devices_) pointers.push_back(device.get());
+    executor_ = std::make_unique<Executor>(pointers, solver->bodies());
+}
+
+void ManualRun::reset() {
+    std::copy(first_positions_.begin(), first_positions_.end(), model->positions->data());
+    std::copy(first_velocities_.begin(), first_velocities_.end(), model->velocities->data());
+    changed(*model->positions);
+    changed(*model->velocities);
+    frame_ = 0;
+}
+
+void ManualRun::run(int frames, const Division& division) {
+    for (int f = 0; f < frames; ++f) run_frame(division, model->scene.substeps);
+}
+
+void ManualRun::run_substeps(int substeps) {
+    run_frame(Division::single(device_count(), strip_count(), 0), substeps);
+}
+
+void ManualRun::run_frame(const Division& division, int substeps) {
+    model->place(frame_ * model->scene.dt);
+    for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
+    const Step step = solver->make_step(division.cuts());
+    executor_->run(step, plan_in_order(step, division), substeps);
+    executor_->fetch(*model->positions);
+    executor_->fetch(*model->velocities);
+    ++frame_;
+}
+
+std::vector<float> ManualRun::in_scene_order(const Buffer<float4>& buffer) const {
+    std::vector<float> values(3 * buffer.count());
+    for (std::size_t v = 0; v < buffer.count(); ++v) {
+        float* to = &values[3 * static_cast<std::size_t>(model->strips.order[v])];
+        to[0] = buffer[v].x;
+        to[1] = buffer[v].y;
+        to[2] = buffer[v].z;
+    }
+    return values;
+}
+
+std::string ManualRun::hash() const {
+    return state_hash(in_scene_order(*model->positions), in_scene_order(*model->velocities));
+}
+
+scheduler::Plan plan_in_order(const Step& step, const Division& division) {
+    const auto devices = division.devices();
+    scheduler::Plan plan;
+    for (std::size_t t = 0; t < step.tasks().size(); ++t) {
+        const auto start = static_cast<double>(t);
+        const int device = devices[static_cast<std::size_t>(step.tasks()[t].region)];
+        plan.placements.push_back(
+            {start, start + 1.0, static_cast<scheduler::ProcessorId>(device)});
+    }
+    return plan;
+}
+
+}  // namespace weft::test
