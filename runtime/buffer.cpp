@@ -4,17 +4,33 @@
 #include <cstring>
 #include <utility>
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 namespace weft {
 
 namespace {
+
 constexpr std::size_t kPage = 4096;  // what OpenCL drivers ask of memory that they use in place
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+/// Large buffers on large pages: gathers then miss the address caches less often.
+void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+    ::madvise(memory, bytes, MADV_HUGEPAGE);  // a hint
+#endif
 }
+
+}  // namespace
 
 BufferStorage::BufferStorage(std::string name, std::size_t count, std::size_t element_size)
     : name_(std::move(name)), count_(count), element_size_(element_size) {
-    const std::size_t whole_pages = (bytes() / kPage + 1) * kPage;
-    host_ = std::aligned_alloc(kPage, whole_pages);
+    const std::size_t page = bytes() < kHugePage ? kPage : kHugePage;
+    const std::size_t whole_pages = (bytes() / page + 1) * page;
+    host_ = std::aligned_alloc(page, whole_pages);
     if (host_ == nullptr) throw std::bad_alloc();
+    if (page == kHugePage) ask_for_huge_pages(host_, whole_pages);
     std::memset(host_, 0, whole_pages);
 }
 

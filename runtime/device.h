@@ -26,6 +26,7 @@ struct DeviceInfo {
     MemoryModel memory = MemoryModel::kHost;
     bool strict = true;  ///< rounds + - * / sqrt correctly, so its results have the same bits
     int lanes = 1;       ///< items per call of a kernel
+    std::vector<int> cores = {};  ///< that its threads stay on; empty: they may go anywhere
 };
 
 /// Something submitted to a device that will be done at some time. Owned by its stream, until the

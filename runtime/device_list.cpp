@@ -151,6 +151,10 @@ void share_cores(std::vector<Part>& parts, int cores) {
     for (Part& part : parts) {
         if (part.units != 0 || !is_cpu_device(part)) continue;
         part.units = (cores - asked) / open;
+        if (!part.is_cpu) {  // a driver may show fewer units than there are cores
+            const auto index = static_cast<std::size_t>(part.index);
+            part.units = std::min(part.units, opencl_devices()[index].units);
+        }
         asked += part.units;
         --open;
     }

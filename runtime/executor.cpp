@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "runtime/clock.h"
+#include "runtime/cores.h"
 
 namespace weft {
 
@@ -37,7 +38,8 @@ public:
             };
             CopyRecord& record = records.emplace_back(copy.record);
             record.start = time(copy.hops.front()).start;
-            record.end = time(copy.hops.back()).end;
+            // Two devices' clocks agree to a microsecond or two, and a copy can be as short.
+            record.end = std::max(record.start, time(copy.hops.back()).end);
         }
         return records;
     }
@@ -151,6 +153,7 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
     : devices_(std::move(devices)), epoch_(now()) {
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
+        if (submission_cores_.empty()) submission_cores_ = device->info().cores;
         one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
     }
 }
@@ -163,6 +166,8 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
                        int first_instance) {
     for (const auto& stream : streams_) stream->begin(epoch_);
     memory_.settle();
+    // Submitting disturbs the devices that stay on their cores; it shall not wander among them.
+    const PinnedThread pinned(submission_cores_);
 
     RunTimes times;
     times.start = clock();

@@ -46,9 +46,9 @@ std::string trimmed(std::string text) {
 }
 
 MemoryModel memory_model(const cl::Device& device) {
-    if (is_type(device, CL_DEVICE_TYPE_CPU)) return MemoryModel::kHost;
-    return device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE ? MemoryModel::kMapped
-                                                                     : MemoryModel::kDiscrete;
+    // Interpreters such as oclgrind are CPU devices, but work on copies.
+    if (device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != CL_TRUE) return MemoryModel::kDiscrete;
+    return is_type(device, CL_DEVICE_TYPE_CPU) ? MemoryModel::kHost : MemoryModel::kMapped;
 }
 
 /// CPU devices need no flag for correct rounding: their instructions round correctly.

@@ -1,6 +1,7 @@
 #include "runtime/opencl/stream.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "runtime/clock.h"
 
@@ -10,6 +11,23 @@ namespace {
 
 constexpr double kNanosecond = 1e-9;
 constexpr std::size_t kGroup = 64;  // work-items per group where each has one item
+
+/// What must outlive every command.
+struct Kept {
+    cl::Device device;
+    cl::Context context;
+    cl::CommandQueue queue, copies;
+    std::vector<cl::Event> events;
+};
+
+/// Keeps it until the process ends. PoCL's worker threads (seen with 3.1) drop their reference to a
+/// command's event only after clFinish has returned, and crashed in it where the rest was gone.
+void keep(Kept kept) {
+    static std::mutex mutex;
+    static auto* all = new std::vector<Kept>;  // never freed: the workers outlive statics
+    const std::lock_guard lock(mutex);
+    all->push_back(std::move(kept));
+}
 
 cl::Buffer make_memory(const OpenClTarget& target, BufferStorage& buffer) {
     const bool in_place = target.info.memory != MemoryModel::kDiscrete;
@@ -43,6 +61,10 @@ OpenClStream::~OpenClStream() {
     } catch (const cl::Error&) {
         // finish() has reported it, or somebody is unwinding from it.
     }
+    Kept kept{target_.device, target_.context, queue_, copies_, {}};
+    if (!running_.empty()) kept.events.push_back(running_.back().last);
+    if (!copied_.empty()) kept.events.push_back(copied_.back().last);
+    keep(std::move(kept));
 }
 
 const cl::Buffer& OpenClStream::memory_of(BufferStorage& buffer) {

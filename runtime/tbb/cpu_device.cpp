@@ -136,8 +136,8 @@ public:
         worker_ = std::jthread([this](std::stop_token stop) { work(stop); });
     }
 
-    /// Whoever still waits for jobs that were never released (a device failed in mid-submission) must
-    /// not wait for ever.
+    /// Whoever still waits for jobs that will not run (a device failed in mid-submission) must not wait
+    /// for ever.
     ~CpuStream() override {
         worker_.request_stop();
         worker_.join();
@@ -145,33 +145,30 @@ public:
     }
 
     void begin(double epoch) override {
+        const std::lock_guard lock(mutex_);
         jobs_.clear();
         times_.clear();
-        released_ = finished_ = 0;
+        finished_ = 0;
         epoch_ = epoch;
     }
 
     Completion* submit(const Submission& s) override {
-        const std::lock_guard lock(mutex_);  // the worker reads jobs_ while it grows
+        std::unique_lock lock(mutex_);  // the worker reads jobs_ while it grows
         Job& job = jobs_.emplace_back();
         job.body = &find(s.task->body);
         job.task = s.task;
         job.number = s.number;
         job.instance = s.instance;
         job.waits.assign(s.waits.begin(), s.waits.end());
+        lock.unlock();
+        changed_.notify_one();
         return &job.completion;
     }
 
-    void flush() override {
-        {
-            const std::lock_guard lock(mutex_);
-            released_ = jobs_.size();
-        }
-        changed_.notify_all();
-    }
+    /// Jobs start as they come: nothing is held back.
+    void flush() override {}
 
     void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>&) override {
-        flush();
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return finished_ == jobs_.size(); });
         tasks.insert(tasks.end(), times_.begin(), times_.end());
@@ -204,8 +201,8 @@ private:
         });
         std::unique_lock lock(mutex_);
         while (true) {
-            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < released_; });
-            if (finished_ >= released_) return;
+            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < jobs_.size(); });
+            if (stop.stop_requested()) return;
             Job& job = jobs_[finished_];
             lock.unlock();
             run(job);
@@ -249,7 +246,6 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Job> jobs_;  // a deque: jobs never move
-    std::size_t released_ = 0;
     std::size_t finished_ = 0;
     std::vector<TaskTime> times_;
     std::exception_ptr failure_;
@@ -258,23 +254,22 @@ private:
 
 class CpuDevice final : public Device {
 public:
-    CpuDevice(int threads, std::vector<int> cores, int lanes)
-        : cores_(std::move(cores)) {
+    CpuDevice(int threads, std::vector<int> cores, int lanes) {
         info_.name = "TBB, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         info_.kind = "tbb";
         info_.units = threads;
         info_.lanes = lanes;
+        info_.cores = std::move(cores);
     }
 
     const DeviceInfo& info() const override { return info_; }
 
     std::unique_ptr<DeviceStream> open_stream(std::span<const TaskBody* const> bodies) override {
-        return std::make_unique<CpuStream>(info_.units, cores_, info_.lanes, bodies);
+        return std::make_unique<CpuStream>(info_.units, info_.cores, info_.lanes, bodies);
     }
 
 private:
     DeviceInfo info_;
-    std::vector<int> cores_;
 };
 
 }  // namespace

@@ -13,7 +13,9 @@ namespace weft {
 namespace {
 
 constexpr double kFirstLatency = 50e-6;  ///< [s] until it has been measured
-constexpr std::size_t kRatioWindow = 7;  ///< frames that a correction is the median of
+/// Frames that a correction is the median of: more than the cost model looks back on, so that a
+/// device whose speed has changed gets new costs, and not its mixtures a bad name.
+constexpr std::size_t kRatioWindow = 25;
 constexpr std::size_t kMostCandidates = 64;
 /// Another plan has to be predicted faster by this much before it replaces the one in use: less is
 /// noise, and every change costs caches and, on discrete memory, copies.

@@ -87,14 +87,11 @@ def test_finished_run_is_kept_without_force(folder):
     assert not (folder / "out/sheet/frames.vtkhdf").exists()  # not the old one beside a new trace
 
 
-# At rest, until a pin runs away so fast that squared lengths overflow.
+# At rest, until a pin runs away.
 DIVERGING = SHEET.replace("frames = 3", "frames = 6") + """
 [cloth.pins]
 corners = ["x-z-"]
-motion.keyframes = [{ time = 0.04 }, { time = 0.05, translate = [1.0e30, 0.0, 0.0] }]
-[guard]
-max_speed = 1.0e30
-max_strain = 1.0e30
+motion.keyframes = [{ time = 0.04 }, { time = 0.05, translate = [1.0e6, 0.0, 0.0] }]
 """
 
 

@@ -37,8 +37,6 @@ TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {
     DeviceOptions options;
     options.opencl_lanes = GetParam().lanes;
     options.per_colour = GetParam().per_colour;
-    // Interpreters such as oclgrind say that they share the host's memory, but work on copies.
-    options.memory = MemoryModel::kDiscrete;
     const auto devices = open_devices("opencl:0", options);
     for (const Flavour flavour : {Flavour::kRandom, Flavour::kDegenerate}) {
         const auto actual = all_cases(flavour);

@@ -66,7 +66,8 @@ public:
     /// What the devices would take together if they could share anything.
     double ideal() const {
         double items = 0.0;
-        for (const Task& task : solver_->make_step({}).tasks()) items += static_cast<double>(task.items);
+        const Step step = solver_->make_step({});
+        for (const Task& task : step.tasks()) items += static_cast<double>(task.items);
         double speed = 0.0;
         for (const auto& device : machine.speeds) speed += 1.0 / device.per_item;
         return kSubsteps * items / speed;

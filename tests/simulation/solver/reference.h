@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/model/model.h"
+
+namespace weft::test {
+
+/// XPBD once more: straightforward, in double precision, one element after the other in the order
+/// that the layout defines. Shares the model's tables with the solver, and no arithmetic.
+class ReferenceXpbd {
+public:
+    explicit ReferenceXpbd(const Model& model);
+
+    /// One substep that ends at `time` + h.
+    void substep(double time);
+
+    std::vector<Vec3> x, v;  ///< new order [m], [m/s]
+
+private:
+    void project_spring(int spring);
+    void project_hinge(int hinge);
+    void collide(const Obstacle& obstacle, double time);
+
+    const Model& model_;
+    std::vector<double> inverse_mass_, decay_;
+    std::vector<double> spring_multipliers_, hinge_multipliers_;
+    std::vector<Vec3> previous_;
+};
+
+}  // namespace weft::test

@@ -1,0 +1,124 @@
+#include "simulation/solver/xpbd.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+#include "simulation/model/convert.h"
+#include "simulation/scene/read_scene.h"
+#include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/test_scenes.h"
+#include "tests/simulation/solver/reference.h"
+
+namespace weft::test {
+namespace {
+
+const std::string kOnBall = R"(
+[scene]
+frames = 1
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 5
+[[cloth]]
+grid = { size = [1.0, 1.5], resolution = [12, 24] }
+rotate = [1.0, 0.0, 1.0, 10.0]
+translate = [0.0, 0.62, 0.0]
+density = 0.2
+stretch = { stiffness = 5.0e3 }
+bend = { stiffness = 1.0e-2 }
+damping = 0.5
+pins = { corners = ["x-z-"] }
+[[obstacle]]
+shape = "sphere"
+center = [0.0, 0.5, 0.0]
+radius = 0.14
+friction = 0.4
+motion = { velocity = [1.0, 0.5, 0.0], angular_velocity = 360.0 }
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.5, 0.0]
+normal = [0.1, 1.0, 0.2]
+thickness = 0.002
+)";
+
+TEST(Xpbd, EverySubstepIsThatOfAnIndependentImplementationInDoublePrecision) {
+    const Scene scene = parse_scene(kOnBall, "test.toml");
+    ManualRun run(scene);
+    double moved_most = 0.0;
+    for (int substeps = 1; substeps <= 4; ++substeps) {
+        run.reset();
+        ReferenceXpbd reference(*run.model);
+        run.run_substeps(substeps);
+        for (int s = 0; s < substeps; ++s) reference.substep(s * run.model->h);
+        for (std::size_t i = 0; i < reference.x.size(); ++i) {
+            const Vec3 x = to_vec3((*run.model->positions)[i]);
+            const Vec3 v = to_vec3((*run.model->velocities)[i]);
+            ASSERT_LT(length(x - reference.x[i]), 2e-6 * substeps) << "vertex " << i;
+            ASSERT_LT(length(v - reference.v[i]), 2e-6 * substeps / run.model->h) << "vertex " << i;
+            moved_most = std::max(moved_most, length(v));
+        }
+    }
+    EXPECT_GT(moved_most, 0.5) << "something happens";
+}
+
+/// The number of executions of every item of every launch in one step.
+long items_of(const Step& step) {
+    return std::accumulate(step.tasks().begin(), step.tasks().end(), 0L,
+                           [](long sum, const Task& task) { return sum + task.items; });
+}
+
+TEST(Xpbd, EveryDivisionHasTheSameWork) {
+    ManualRun run(parse_scene(kEverything, "test.toml"));
+    const long items = items_of(run.solver->make_step({}));
+    for (int first = 1; first < run.strip_count(); ++first) {
+        const int one[] = {first};
+        EXPECT_EQ(items_of(run.solver->make_step(one)), items);
+        for (int second = first + 1; second < run.strip_count(); ++second) {
+            const int two[] = {first, second};
+            EXPECT_EQ(items_of(run.solver->make_step(two)), items);
+        }
+    }
+}
+
+TEST(Xpbd, RegionsOnlyWaitForTheirNeighboursAtTheCut) {
+    ManualRun run(parse_scene(kSpringsOnly, "test.toml"));
+    ASSERT_GE(run.strip_count(), 6);
+    const int cuts[] = {2, 4};
+    const Step step = run.solver->make_step(cuts);
+    for (const Dependency& d : step.dependencies()) {
+        const Task& from = step.tasks()[static_cast<std::size_t>(d.from)];
+        const Task& to = step.tasks()[static_cast<std::size_t>(d.to)];
+        EXPECT_LE(std::abs(from.region - to.region), 1);
+    }
+    std::set<int> regions;
+    for (const Task& task : step.tasks()) regions.insert(task.region);
+    EXPECT_EQ(regions, (std::set<int>{0, 1, 2}));
+}
+
+TEST(Xpbd, HasNoBodyLaunchOrBufferForWhatASceneDoesNotName) {
+    ManualRun plain(parse_scene(kSpringsOnly, "test.toml"));
+    std::set<std::string_view> kernels;
+    for (const TaskBody* body : plain.solver->bodies()) {
+        for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
+    }
+    EXPECT_EQ(kernels, (std::set<std::string_view>{"predict", "project_springs", "update_velocities"}));
+    for (const BufferStorage* buffer : plain.solver->buffers()) {
+        EXPECT_EQ(buffer->name().find("hinge"), std::string::npos);
+    }
+
+    ManualRun all(parse_scene(kEverything, "test.toml"));
+    for (const TaskBody* body : all.solver->bodies()) {
+        for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
+    }
+    for (const char* kernel : {"project_hinges", "move_pins", "update_damped_velocities",
+                               "rub_on_sphere", "rub_on_plane", "push_out_of_capsule",
+                               "push_out_of_box"}) {
+        EXPECT_TRUE(kernels.contains(kernel)) << kernel;
+    }
+    EXPECT_FALSE(kernels.contains("push_out_of_sphere"));
+}
+
+}  // namespace
+}  // namespace weft::test
