@@ -10,8 +10,8 @@ WEFT_KERNELS_BEGIN
 
 /// The velocity with which a vertex would fall freely; a held vertex (1/mass = 0) has none.
 WEFT_INLINE real3 falling_velocity(real4 velocity, real inverse_mass, float4 gravity, float h) {
-    const real3 v = make3(velocity.x + h * gravity.x, velocity.y + h * gravity.y,
-                          velocity.z + h * gravity.z);
+    const real3 v =
+        make3(velocity.x + h * gravity.x, velocity.y + h * gravity.y, velocity.z + h * gravity.z);
     const real free = inverse_mass > splat(0.0f) ? splat(1.0f) : splat(0.0f);
     return scale(v, free);
 }
@@ -48,8 +48,8 @@ WEFT_KERNEL(update_velocities, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* velocities,
             WEFT_GLOBAL const float4* gravity, float h, float inverse_h, int substep) {
     const real4 v = load4(velocities, i);
-    const real3 moved = new_velocity(load4(positions, i), load4(previous, i), v, gravity[substep], h,
-                                     inverse_h);
+    const real3 moved =
+        new_velocity(load4(positions, i), load4(previous, i), v, gravity[substep], h, inverse_h);
     store4(velocities, i, with_w(moved, v.w));
 }
 
@@ -59,8 +59,8 @@ WEFT_KERNEL(update_damped_velocities, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* velocities,
             WEFT_GLOBAL const float4* gravity, float h, float inverse_h, int substep) {
     const real4 v = load4(velocities, i);
-    const real3 moved = new_velocity(load4(positions, i), load4(previous, i), v, gravity[substep], h,
-                                     inverse_h);
+    const real3 moved =
+        new_velocity(load4(positions, i), load4(previous, i), v, gravity[substep], h, inverse_h);
     store4(velocities, i, with_w(scale(moved, v.w), v.w));
 }
 

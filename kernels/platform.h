@@ -21,8 +21,8 @@
 //   gather4(p, k)      p[k], k an integer of each item     scatter4(p, k, v)
 //   column(i, n, k)    the items, k columns further in a column-major table with n rows
 //
-// The last call of a range may have fewer than 8 items. Lanes beyond them repeat the last item: they
-// compute the same bits and store them to the same place again.
+// The last call of a range may have fewer than 8 items. Lanes beyond them repeat the last item:
+// they compute the same bits and store them to the same place again.
 //
 // Buffers hold float, int or float4 (float3 takes 16 bytes in OpenCL, so it never lies in memory).
 // Parameters are pointers (WEFT_GLOBAL), float or int. Helpers take and return values and are

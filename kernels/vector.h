@@ -1,7 +1,8 @@
 #ifndef WEFT_KERNELS_VECTOR_H
 #define WEFT_KERNELS_VECTOR_H
 
-// Three-dimensional arithmetic on `real`. OpenCL C has no operators for structs, so these are words.
+// Three-dimensional arithmetic on `real`. OpenCL C has no operators for structs, so these are
+// words.
 
 #include "kernels/platform.h"
 

@@ -43,7 +43,8 @@ class Buffer : public BufferStorage {
     static_assert(std::is_same_v<T, float> || std::is_same_v<T, int> || std::is_same_v<T, float4>);
 
 public:
-    Buffer(std::string name, std::size_t count) : BufferStorage(std::move(name), count, sizeof(T)) {}
+    Buffer(std::string name, std::size_t count)
+        : BufferStorage(std::move(name), count, sizeof(T)) {}
 
     T* data() { return static_cast<T*>(host()); }
     const T* data() const { return static_cast<const T*>(host()); }

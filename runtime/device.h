@@ -63,8 +63,8 @@ struct ElementSpan {
 /// What a task is submitted with.
 struct Submission {
     const Task* task = nullptr;
-    int number = 0;    ///< of the task in its step
-    int instance = 0;  ///< of the step
+    int number = 0;                      ///< of the task in its step
+    int instance = 0;                    ///< of the step
     std::span<Completion* const> waits;  ///< on other devices; the own stream is in order anyway
 };
 
@@ -78,8 +78,8 @@ public:
     virtual Completion* submit(const Submission& submission) = 0;
     /// Lets everything submitted so far run.
     virtual void flush() = 0;
-    /// Waits for everything; throws RunError if the device failed. Gives the times of all tasks, and
-    /// of all copies in the order in which they were asked for.
+    /// Waits for everything; throws RunError if the device failed. Gives the times of all tasks,
+    /// and of all copies in the order in which they were asked for.
     virtual void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) = 0;
 
     // Only for devices that do not work in the host's memory.

@@ -14,9 +14,12 @@ namespace weft {
 
 std::string_view name_of(MemoryModel memory) {
     switch (memory) {
-        case MemoryModel::kHost: return "host";
-        case MemoryModel::kMapped: return "mapped";
-        case MemoryModel::kDiscrete: return "discrete";
+        case MemoryModel::kHost:
+            return "host";
+        case MemoryModel::kMapped:
+            return "mapped";
+        case MemoryModel::kDiscrete:
+            return "discrete";
     }
     return "";
 }
@@ -178,8 +181,8 @@ public:
     }
 
 private:
-    /// All parts of one OpenCL device are divided off it at once. They take its first units, and those
-    /// are the first cores: what is left for TBB are the last.
+    /// All parts of one OpenCL device are divided off it at once. They take its first units, and
+    /// those are the first cores: what is left for TBB are the last.
     void open_opencl() {
         std::map<int, std::vector<int>> units;
         for (const Part& part : parts_) {
@@ -190,8 +193,8 @@ private:
             opened_[index] = open_opencl_device(index, list, options_);
             if (!opencl_devices()[static_cast<std::size_t>(index)].is_cpu) continue;
             for (const auto& device : opened_[index]) {
-                const auto taken = std::min<std::size_t>(static_cast<std::size_t>(device->info().units),
-                                                         free_cores_.size());
+                const auto taken = std::min<std::size_t>(
+                    static_cast<std::size_t>(device->info().units), free_cores_.size());
                 free_cores_.erase(free_cores_.begin(),
                                   free_cores_.begin() + static_cast<std::ptrdiff_t>(taken));
             }
@@ -248,7 +251,8 @@ std::string hybrid_devices() {
         return "cpu/" + std::to_string(std::max(1, cores - 1)) + "+" + opencl;
     }
     if (cores < 2) return "cpu";
-    return "cpu/" + std::to_string(cores - cores / 2) + "+" + opencl + "/" + std::to_string(cores / 2);
+    return "cpu/" + std::to_string(cores - cores / 2) + "+" + opencl + "/" +
+           std::to_string(cores / 2);
 }
 
 }  // namespace weft

@@ -26,8 +26,8 @@ struct DeviceOptions {
 ///   opencl                the first GPU, or else the first OpenCL device
 ///   opencl:I, opencl:I/N  device I of `weft devices`, whole or limited to N compute units
 ///   hybrid                the CPU and the best OpenCL device; the CPU alone where there is none
-/// OpenCL devices that are the CPU itself and the TBB devices get cores of their own. Throws UserError
-/// for a list that cannot be had. OpenCL is not touched unless the list asks for it.
+/// OpenCL devices that are the CPU itself and the TBB devices get cores of their own. Throws
+/// UserError for a list that cannot be had. OpenCL is not touched unless the list asks for it.
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
                                                   const DeviceOptions& options = {});
 

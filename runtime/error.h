@@ -5,8 +5,9 @@
 
 namespace weft {
 
-/// The request was wrong: command line, scene, mesh, graph or trace. The program ends with exit code 2.
-/// The message names the file, line and column or the field, the value, and what would be right.
+/// The request was wrong: command line, scene, mesh, graph or trace. The program ends with exit
+/// code 2. The message names the file, line and column or the field, the value, and what would be
+/// right.
 class UserError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

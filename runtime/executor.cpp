@@ -12,12 +12,16 @@ namespace weft {
 class Executor::Run {
 public:
     Run(Executor& executor, const Step& step, const scheduler::Plan& plan)
-        : executor_(executor), step_(step), plan_(plan), order_(step.tasks().size()), hop_count_(executor.devices_.size(), 0) {
-        // By planned start. Tasks are numbered in an order that respects the dependencies, so ties do.
+        : executor_(executor),
+          step_(step),
+          plan_(plan),
+          order_(step.tasks().size()),
+          hop_count_(executor.devices_.size(), 0) {
+        // By planned start. Tasks are numbered in an order that respects the dependencies, so ties
+        // do.
         std::iota(order_.begin(), order_.end(), 0);
-        std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
-            return placement(a).start < placement(b).start;
-        });
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](int a, int b) { return placement(a).start < placement(b).start; });
         previous_.resize(order_.size(), nullptr);
         current_.resize(order_.size(), nullptr);
         group(step.dependencies(), within_);
@@ -59,9 +63,12 @@ private:
         const auto model = executor_.devices_[static_cast<std::size_t>(device)]->info().memory;
         return model == MemoryModel::kHost ? 0 : device + 1;
     }
-    DeviceStream& stream(int device) { return *executor_.streams_[static_cast<std::size_t>(device)]; }
+    DeviceStream& stream(int device) {
+        return *executor_.streams_[static_cast<std::size_t>(device)];
+    }
 
-    void group(const std::vector<Dependency>& dependencies, std::vector<std::vector<int>>& by_task) {
+    void group(const std::vector<Dependency>& dependencies,
+               std::vector<std::vector<int>>& by_task) {
         by_task.resize(order_.size());
         for (const Dependency& d : dependencies) {
             if (device_of(d.from) == device_of(d.to)) continue;  // the streams are in order
@@ -108,7 +115,8 @@ private:
             Copy copy{{instance, task, missing.source - 1, device, bytes}, {}};
             Completion* arrival = missing.made_by;
             if (missing.source != 0) {
-                arrival = move(access, missing.interval, span, missing.source - 1, 0, arrival, copy);
+                arrival =
+                    move(access, missing.interval, span, missing.source - 1, 0, arrival, copy);
             } else {
                 copy.record.from = host_device();
             }
@@ -120,8 +128,8 @@ private:
     }
 
     /// One hop between the host's memory and that of `owner`, to `memory`.
-    Completion* move(const Access& access, Interval interval, const ElementSpan& span,
-                     int owner, int memory, Completion* after, Copy& copy) {
+    Completion* move(const Access& access, Interval interval, const ElementSpan& span, int owner,
+                     int memory, Completion* after, Copy& copy) {
         const std::vector<Completion*> waits(after == nullptr ? 0 : 1, after);
         DeviceStream& s = stream(owner);
         Completion* arrival = memory == 0 ? s.to_host(*access.buffer, span, waits)
@@ -142,8 +150,8 @@ private:
     const Step& step_;
     const scheduler::Plan& plan_;
     std::vector<int> order_;
-    std::vector<std::vector<int>> within_, carried_;     ///< [task] tasks on other devices to wait for
-    std::vector<Completion*> previous_, current_;        ///< [task] of the last and of this instance
+    std::vector<std::vector<int>> within_, carried_;  ///< [task] tasks on other devices to wait for
+    std::vector<Completion*> previous_, current_;     ///< [task] of the last and of this instance
     std::vector<Completion*> waits_;
     std::vector<Copy> copies_;
     std::vector<std::size_t> hop_count_;  ///< [device]

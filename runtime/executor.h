@@ -30,18 +30,18 @@ struct RunTimes {
     std::vector<CopyRecord> copies;
 };
 
-/// Runs plans: every device works through its part of the tasks, in the plan's order, as soon as what
-/// they depend on is done. Nothing spins. Everything is submitted ahead, so that devices wait for each
-/// other only, never for the host.
+/// Runs plans: every device works through its part of the tasks, in the plan's order, as soon as
+/// what they depend on is done. Nothing spins. Everything is submitted ahead, so that devices wait
+/// for each other only, never for the host.
 class Executor {
 public:
     /// bodies  all that steps may use. Devices, bodies and their buffers must outlive the executor.
     Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies);
     ~Executor();
 
-    /// Runs the step `instances` times in a row by one plan (processors are the devices, in order) and
-    /// waits for the end. Instances are numbered from first_instance. Throws RunError when a device
-    /// fails.
+    /// Runs the step `instances` times in a row by one plan (processors are the devices, in order)
+    /// and waits for the end. Instances are numbered from first_instance. Throws RunError when a
+    /// device fails.
     RunTimes run(const Step& step, const scheduler::Plan& plan, int instances,
                  int first_instance = 0);
 

@@ -14,7 +14,8 @@ int Segments::largest(int colour, int first_strip, int end_strip) const {
 
 long TaskBody::item_count(int first_strip, int end_strip) const {
     long count = 0;
-    for (const Launch& launch : launches) count += launch.segments.item_count(first_strip, end_strip);
+    for (const Launch& launch : launches)
+        count += launch.segments.item_count(first_strip, end_strip);
     return count;
 }
 

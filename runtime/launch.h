@@ -10,12 +10,13 @@
 
 namespace weft {
 
-/// Where a kernel's items lie: for each strip, one segment per colour. Strips are independent of each
-/// other; the segments of one strip run in the order of their colours.
+/// Where a kernel's items lie: for each strip, one segment per colour. Strips are independent of
+/// each other; the segments of one strip run in the order of their colours.
 ///
-/// Segment first + strip * colour_count + colour holds the items [begin[segment], begin[segment + 1]):
-/// the items of a strip are contiguous, and so are those of a range of strips. (With the segments of one
-/// colour side by side instead, a strip's sweep would begin a new stream of memory at every segment.)
+/// Segment first + strip * colour_count + colour holds the items [begin[segment], begin[segment +
+/// 1]): the items of a strip are contiguous, and so are those of a range of strips. (With the
+/// segments of one colour side by side instead, a strip's sweep would begin a new stream of memory
+/// at every segment.)
 struct Segments {
     Buffer<int>* begin = nullptr;  ///< [first + strip_count * colour_count + 1], or more
     int first = 0;                 ///< where this table starts within `begin`
@@ -54,7 +55,8 @@ struct Launch {
     Segments segments;
 };
 
-/// Launches that run one after the other on each strip: what a task does. Tasks of one kind share it.
+/// Launches that run one after the other on each strip: what a task does. Tasks of one kind share
+/// it.
 struct TaskBody {
     std::string name;  ///< of the kind, for traces
     int kind = 0;      ///< what the cost model tells apart
@@ -72,15 +74,18 @@ Argument make_argument(Value& value) {
     Argument argument;
     if constexpr (std::is_pointer_v<Parameter>) {
         using Element = std::remove_const_t<std::remove_pointer_t<Parameter>>;
-        static_assert(std::is_same_v<V, Buffer<Element>>, "this parameter takes a Buffer of its type");
+        static_assert(std::is_same_v<V, Buffer<Element>>,
+                      "this parameter takes a Buffer of its type");
         argument.buffer = &value;
     } else if constexpr (std::is_same_v<V, Instance>) {
         static_assert(std::is_same_v<Parameter, int>, "the instance is an int");
         argument.is_instance = true;
     } else {
         static_assert(std::is_same_v<V, Parameter>, "float for float, int for int");
-        if constexpr (std::is_same_v<Parameter, float>) argument.real = value;
-        else argument.integer = value;
+        if constexpr (std::is_same_v<Parameter, float>)
+            argument.real = value;
+        else
+            argument.integer = value;
     }
     return argument;
 }

@@ -29,13 +29,14 @@ std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, int mem
         const Interval common{std::max(part.interval.begin, access.begin),
                               std::min(part.interval.end, access.end)};
         if (common.begin >= common.end) continue;
-        const auto here = std::find_if(part.holders.begin(), part.holders.end(),
-                                       [&](const Holder& holder) { return holder.memory == memory; });
+        const auto here =
+            std::find_if(part.holders.begin(), part.holders.end(),
+                         [&](const Holder& holder) { return holder.memory == memory; });
         if (here != part.holders.end()) continue;
         // The host first: it is one copy away, other devices are two.
-        const auto source = std::min_element(
-            part.holders.begin(), part.holders.end(),
-            [](const Holder& a, const Holder& b) { return a.memory < b.memory; });
+        const auto source =
+            std::min_element(part.holders.begin(), part.holders.end(),
+                             [](const Holder& a, const Holder& b) { return a.memory < b.memory; });
         result.push_back({common, source->memory, source->since});
     }
     return result;
@@ -98,7 +99,8 @@ std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
         if (key.first != &buffer) continue;
         for (const Part& part : entry.parts) {
             const Access access{key.first, entry.segments, part.interval.begin, part.interval.end};
-            for (const Missing& missing : this->missing(access, 0)) result.emplace_back(access, missing);
+            for (const Missing& missing : this->missing(access, 0))
+                result.emplace_back(access, missing);
         }
     }
     return result;

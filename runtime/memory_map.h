@@ -15,14 +15,14 @@ struct Interval {
     int end = 0;
 };
 
-/// Which of the memories holds the current data of which part of which buffer (as caches do: modified,
-/// shared, invalid). Memory 0 is the host's. What is not noted is current everywhere.
+/// Which of the memories holds the current data of which part of which buffer (as caches do:
+/// modified, shared, invalid). Memory 0 is the host's. What is not noted is current everywhere.
 class MemoryMap {
 public:
     /// A part that has to be copied, and the work that made its data.
     struct Missing {
         Interval interval;
-        int source = 0;             ///< memory
+        int source = 0;                 ///< memory
         Completion* made_by = nullptr;  ///< null: long done
     };
 

@@ -27,7 +27,9 @@ double conflict(const Task& first, const Task& second) {
             const int common = overlap(a, b);
             if (common == 0) continue;
             bytes = std::max(bytes, 0.0);
-            if (a.writes) bytes += static_cast<double>(common) * static_cast<double>(b.buffer->element_size());
+            if (a.writes)
+                bytes +=
+                    static_cast<double>(common) * static_cast<double>(b.buffer->element_size());
         }
     }
     return bytes;
@@ -57,8 +59,13 @@ Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strip
 
 Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int end_strip,
                        int region) {
-    tasks_.push_back({&body, iteration, first_strip, end_strip, region,
-                      body.item_count(first_strip, end_strip), {}});
+    tasks_.push_back({&body,
+                      iteration,
+                      first_strip,
+                      end_strip,
+                      region,
+                      body.item_count(first_strip, end_strip),
+                      {}});
     return {*this, static_cast<int>(tasks_.size()) - 1};
 }
 
@@ -68,7 +75,9 @@ void Step::seal() {
     const int count = static_cast<int>(tasks_.size());
     const std::size_t words = (static_cast<std::size_t>(2 * count) + 63) / 64;
     std::vector<std::uint64_t> before(static_cast<std::size_t>(2 * count) * words, 0);
-    const auto row = [&](int task) { return before.data() + static_cast<std::size_t>(task) * words; };
+    const auto row = [&](int task) {
+        return before.data() + static_cast<std::size_t>(task) * words;
+    };
     const auto contains = [&](int task, int earlier) {
         return (row(task)[earlier / 64] >> (earlier % 64) & 1) != 0;
     };
@@ -80,8 +89,10 @@ void Step::seal() {
             if (bytes < 0.0) continue;
             for (std::size_t w = 0; w < words; ++w) row(to)[w] |= row(from)[w];
             row(to)[from / 64] |= std::uint64_t{1} << (from % 64);
-            if (to < count) dependencies_.push_back({from, to, bytes});
-            else if (from < count) carried_.push_back({from, to - count, bytes});
+            if (to < count)
+                dependencies_.push_back({from, to, bytes});
+            else if (from < count)
+                carried_.push_back({from, to - count, bytes});
         }
     }
 }

@@ -34,8 +34,9 @@ struct Dependency {
     double bytes = 0.0;  ///< what `to` reads of what `from` wrote
 };
 
-/// A task graph that runs several times in a row (the substep of a frame). Tasks are added in an order
-/// in which they could run one after the other; what depends on what follows from their accesses.
+/// A task graph that runs several times in a row (the substep of a frame). Tasks are added in an
+/// order in which they could run one after the other; what depends on what follows from their
+/// accesses.
 class Step {
 public:
     /// Adds a task; chain .reads(), .updates() on the result at once.

@@ -10,7 +10,9 @@ namespace weft {
 
 namespace {
 
-bool is_finite(const float4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const float4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 std::string text_of(const float4& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 

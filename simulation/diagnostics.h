@@ -12,8 +12,8 @@ namespace weft {
 /// The energies of a state [J], in double precision.
 struct Energies {
     double kinetic = 0.0;
-    double gravity = 0.0;           ///< potential, zero at the origin
-    std::vector<double> elements;   ///< in the order of energy_names()
+    double gravity = 0.0;          ///< potential, zero at the origin
+    std::vector<double> elements;  ///< in the order of energy_names()
 };
 
 /// Names of the element energies that the model has.
@@ -22,7 +22,7 @@ Energies measure_energies(const Model& model, double time);
 
 /// A state that is no state: what is wrong with which vertex.
 struct BadState {
-    int vertex = 0;       ///< new order
+    int vertex = 0;  ///< new order
     std::string what;
 };
 

@@ -116,7 +116,8 @@ public:
     }
 
     std::vector<Inspection::LeftOut> take(const std::string& why_the_rest) {
-        if (!unused_.empty()) add("other kernels", why_the_rest, [](const std::string&) { return true; });
+        if (!unused_.empty())
+            add("other kernels", why_the_rest, [](const std::string&) { return true; });
         return std::move(list_);
     }
 
@@ -132,7 +133,8 @@ bool any_of(const Range& range, Test test) {
 
 void add_bending(LeftOutList& list, const Model& model) {
     if (model.hinges) return;
-    const bool asked = any_of(model.scene.cloths, [](const Cloth& c) { return c.bend.has_value(); });
+    const bool asked =
+        any_of(model.scene.cloths, [](const Cloth& c) { return c.bend.has_value(); });
     list.add("bending",
              asked ? "no edge lies between exactly two triangles"
                    : "no cloth has bend.stiffness above 0",
@@ -197,7 +199,8 @@ std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelS
     if (model.strips.count() < 2) {
         list.add("seams", "the mesh is too small or too short for a second strip");
     }
-    list.add("transfers (dataset)", "only a mixture of devices with memories of their own has them");
+    list.add("transfers (dataset)",
+             "only a mixture of devices with memories of their own has them");
     return list.take("the scene's solver does not use them");
 }
 

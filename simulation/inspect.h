@@ -45,8 +45,8 @@ struct Inspection {
     int triangles = 0;
     int strips = 0;
     std::vector<Task> tasks;
-    std::vector<Kernel> kernels;    ///< by name
-    std::vector<Buffer> buffers;    ///< on devices, in order of first use
+    std::vector<Kernel> kernels;  ///< by name
+    std::vector<Buffer> buffers;  ///< on devices, in order of first use
     std::vector<Dataset> datasets;
     std::vector<LeftOut> left_out;
 };

@@ -126,7 +126,8 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
         double busy = 0.0;
         for (const TaskTime& t : times.tasks[d]) {
             busy += t.end - t.start;
-            const auto items = static_cast<std::uint64_t>(tasks[static_cast<std::size_t>(t.task)].items);
+            const auto items =
+                static_cast<std::uint64_t>(tasks[static_cast<std::size_t>(t.task)].items);
             frame.executions.push_back({u32(t.instance), u32(t.task), static_cast<std::uint32_t>(d),
                                         items, t.start, t.end});
         }
@@ -135,10 +136,10 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
         for (const scheduler::TaskId id : plan.plan.tasks_on(static_cast<std::uint32_t>(d))) {
             const Task& task = tasks[id];
             const auto& placed = plan.plan.placements[id];
-            frame.plan.push_back({id, u32(task.body->kind), u32(task.iteration),
-                                  u32(task.first_strip), u32(task.end_strip - task.first_strip),
-                                  static_cast<std::uint32_t>(d), order++,
-                                  static_cast<std::uint64_t>(task.items), placed.start, placed.end});
+            frame.plan.push_back(
+                {id, u32(task.body->kind), u32(task.iteration), u32(task.first_strip),
+                 u32(task.end_strip - task.first_strip), static_cast<std::uint32_t>(d), order++,
+                 static_cast<std::uint64_t>(task.items), placed.start, placed.end});
         }
     }
     const auto& costs = planner_->costs();
@@ -171,10 +172,11 @@ void Simulation::diagnose(const State& start) {
     const auto fail = [&](int substep, const Task& task, const BadState& bad) {
         const std::string vertex = vertex_name(*model_, bad.vertex);
         restore(start);
-        return RunError(fmt::format(
-            "the simulation diverged in frame {}, substep {}, seen after task '{}', iteration {}: {}: "
-            "{}; smaller time steps (more substeps) or softer materials may help",
-            frame_, substep, task.body->name, task.iteration, vertex, bad.what));
+        return RunError(
+            fmt::format("the simulation diverged in frame {}, substep {}, seen after task '{}', "
+                        "iteration {}: {}: "
+                        "{}; smaller time steps (more substeps) or softer materials may help",
+                        frame_, substep, task.body->name, task.iteration, vertex, bad.what));
     };
     for (int substep = 0; substep < model_->scene.substeps; ++substep) {
         for (const Task& task : step.tasks()) {
@@ -184,7 +186,8 @@ void Simulation::diagnose(const State& start) {
             if (const auto bad = find_non_finite(*model_)) throw fail(substep, task, *bad);
         }
         // Only a substep's end is a state: before, positions may be far off for good reasons.
-        if (const auto bad = find_bad_state(*model_)) throw fail(substep, step.tasks().back(), *bad);
+        if (const auto bad = find_bad_state(*model_))
+            throw fail(substep, step.tasks().back(), *bad);
     }
     throw RunError(fmt::format("the simulation diverged in frame {}", frame_));
 }
@@ -216,7 +219,9 @@ RunDescription Simulation::describe() const {
     return run;
 }
 
-std::vector<float> Simulation::positions() const { return in_scene_order(*model_, *model_->positions); }
+std::vector<float> Simulation::positions() const {
+    return in_scene_order(*model_, *model_->positions);
+}
 std::vector<float> Simulation::velocities() const {
     return in_scene_order(*model_, *model_->velocities);
 }

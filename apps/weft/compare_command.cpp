@@ -91,15 +91,18 @@ void run_comparison(const CompareOptions& options) {
     write_json(options.run.out ? std::filesystem::path(*options.run.out)
                                : std::filesystem::path("out") / scene.name,
                json);
-    if (options.run.json) std::cout << json.dump(2) << std::endl;
-    else std::cout << to_text(comparison) << std::flush;
+    if (options.run.json)
+        std::cout << json.dump(2) << std::endl;
+    else
+        std::cout << to_text(comparison) << std::flush;
     warn_of_different_states(comparison);
 }
 
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("compare", "Time device lists side by side, frame by frame");
+    CLI::App* command =
+        app.add_subcommand("compare", "Time device lists side by side, frame by frame");
     const auto options = std::make_shared<CompareOptions>();
     add_scene_options(*command, options->run);
     add_device_options(*command, options->run);

@@ -34,8 +34,8 @@ std::vector<std::string> devices_of(const std::string& list) {
 
 ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample>& frames,
                        const std::string& state_hash) {
-    const auto mixed = std::count_if(frames.begin(), frames.end(),
-                                     [](const FrameSample& f) { return f.mixed; });
+    const auto mixed =
+        std::count_if(frames.begin(), frames.end(), [](const FrameSample& f) { return f.mixed; });
     ComparisonRow row;
     row.devices = devices;
     row.plan = 2 * static_cast<std::size_t>(mixed) > frames.size() ? "mixture" : "single";
@@ -87,8 +87,10 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
     }
     nlohmann::ordered_json json{{"scene", comparison.scene}, {"rows", std::move(rows)}};
     const auto set = [&](const char* key, const auto& value) {
-        if (value) json[key] = *value;
-        else json[key] = nullptr;
+        if (value)
+            json[key] = *value;
+        else
+            json[key] = nullptr;
     };
     set("best_single", comparison.best_single);
     set("speedup_over_best_single", comparison.speedup_over_best_single);
@@ -104,8 +106,8 @@ std::string to_text(const Comparison& comparison) {
                                    "plan us", "util", "energy J", "plan", "state");
     for (const ComparisonRow& r : comparison.rows) {
         text += fmt::format(
-            "{:<{}}  {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:8.1f} {:4.0f}% {:12.6g}  {:<8} {}\n", r.devices,
-            width, r.ms_per_frame, r.ms_p95, r.planned_ms, r.measured_ms, r.plan_us,
+            "{:<{}}  {:9.3f} {:9.3f} {:9.3f} {:9.3f} {:8.1f} {:4.0f}% {:12.6g}  {:<8} {}\n",
+            r.devices, width, r.ms_per_frame, r.ms_p95, r.planned_ms, r.measured_ms, r.plan_us,
             100.0 * r.utilisation, r.energy, r.plan, r.state_hash.substr(0, 8));
     }
     if (comparison.efficiency) {

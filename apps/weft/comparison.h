@@ -31,8 +31,9 @@ ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample
 struct Comparison {
     std::string scene;
     std::vector<ComparisonRow> rows;
-    /// The mixture is the last row of several devices; its devices are the rows that its list names.
-    std::optional<std::string> best_single;           ///< the fastest of the mixture's devices alone
+    /// The mixture is the last row of several devices; its devices are the rows that its list
+    /// names.
+    std::optional<std::string> best_single;  ///< the fastest of the mixture's devices alone
     std::optional<double> speedup_over_best_single;
     std::optional<double> efficiency;  ///< the mixture's speed / the sum of its devices' own speeds
 };

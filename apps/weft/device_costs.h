@@ -14,8 +14,8 @@ struct TransferCost {
 
 /// What using a device costs, whatever the work.
 struct DeviceCosts {
-    double batch = 0.0;   ///< one tiny task, submitted and waited for [s]
-    double launch = 0.0;  ///< each further task submitted along with it [s]
+    double batch = 0.0;                     ///< one tiny task, submitted and waited for [s]
+    double launch = 0.0;                    ///< each further task submitted along with it [s]
     std::optional<TransferCost> to_device;  ///< absent: it works in the host's memory
     std::optional<TransferCost> to_host;
 };

@@ -66,15 +66,16 @@ std::string transfer_text(const std::optional<TransferCost>& cost) {
 }
 
 std::string row_text(const Row& row) {
-    if (!row.error.empty()) return fmt::format("{:<10} cannot be used: {}\n", row.device, row.error);
+    if (!row.error.empty())
+        return fmt::format("{:<10} cannot be used: {}\n", row.device, row.error);
     const auto line = [](const char* what, const std::string& value) {
         return fmt::format("{:<10} {:<11} {}\n", "", what, value);
     };
     const DeviceInfo& info = row.info;
     std::string text = fmt::format("{:<10} {}\n", row.device, info.name);
-    text += line("kind", fmt::format("{}, {} unit{}, {} lane{}", info.kind, info.units,
-                                     info.units == 1 ? "" : "s", info.lanes,
-                                     info.lanes == 1 ? "" : "s"));
+    text += line("kind",
+                 fmt::format("{}, {} unit{}, {} lane{}", info.kind, info.units,
+                             info.units == 1 ? "" : "s", info.lanes, info.lanes == 1 ? "" : "s"));
     if (!info.driver.empty()) text += line("driver", info.driver);
     text += line("memory", std::string(name_of(info.memory)));
     text += line("arithmetic", info.strict ? "strict: the same bits as the other strict devices"
@@ -109,8 +110,9 @@ void list_devices(const DevicesOptions& options) {
     for (const Row& row : rows) std::cout << row_text(row) << '\n';
     std::cout << fmt::format("--device hybrid, the default, is {} here\n", hybrid_devices());
     if (names.size() > 1) return;
-    std::cerr << "weft: no OpenCL device was found; pocl-opencl-icd makes one of the CPU, and a GPU "
-                 "needs its vendor's driver\n";
+    std::cerr
+        << "weft: no OpenCL device was found; pocl-opencl-icd makes one of the CPU, and a GPU "
+           "needs its vendor's driver\n";
 }
 
 }  // namespace

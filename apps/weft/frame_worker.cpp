@@ -95,8 +95,10 @@ void FrameWorker::serve(const RunOptions& options, int in, int out) {
         Simulation simulation(scene, options.simulation(), warnings);
         char command = 0;
         while (::read(in, &command, 1) == 1 && command != kEnd) {
-            if (command == kFrame) write_line(out, kDone, frame_line(simulation));
-            else write_line(out, kDone, command == kHash ? simulation.hash() : "");
+            if (command == kFrame)
+                write_line(out, kDone, frame_line(simulation));
+            else
+                write_line(out, kDone, command == kHash ? simulation.hash() : "");
         }
     } catch (const UserError& error) {
         write_line(out, kUserError, error.what());

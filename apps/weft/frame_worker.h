@@ -23,7 +23,8 @@ struct FrameSample {
 
 /// A simulation in a process of its own, which does one frame whenever it is told to. In between it
 /// only waits, with all of its threads: so several device lists can take turns, frame by frame,
-/// without disturbing each other, and drivers that are set up once per process can be set up for each.
+/// without disturbing each other, and drivers that are set up once per process can be set up for
+/// each.
 class FrameWorker {
 public:
     /// Starts the process, which sets up the scene. Call before this process uses any thread.

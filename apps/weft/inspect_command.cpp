@@ -27,9 +27,8 @@ ordered_json tasks_json(const std::vector<Inspection::Task>& tasks) {
     for (const Inspection::Task& task : tasks) {
         ordered_json launches = ordered_json::array();
         for (const Inspection::Launch& launch : task.launches) {
-            launches.push_back({{"kernel", launch.kernel},
-                                {"items", launch.items},
-                                {"colours", launch.colours}});
+            launches.push_back(
+                {{"kernel", launch.kernel}, {"items", launch.items}, {"colours", launch.colours}});
         }
         list.push_back({{"kind", task.kind},
                         {"per_substep", task.per_substep},
@@ -107,7 +106,8 @@ std::string to_text(const Inspection& inspection, const Scene& scene) {
     text += "\nleft out\n";
     for (const auto& item : inspection.left_out) {
         text += fmt::format("  {}: {}\n", item.what, item.why);
-        if (!item.kernels.empty()) text += fmt::format("      no {}\n", fmt::join(item.kernels, ", "));
+        if (!item.kernels.empty())
+            text += fmt::format("      no {}\n", fmt::join(item.kernels, ", "));
     }
     return text;
 }
@@ -119,15 +119,17 @@ void inspect_scene(const RunOptions& options) {
     const auto solver = make_solver(model);
     if (!options.quiet) print_warnings(warnings);
     const Inspection inspection = inspect(model, *solver);
-    if (options.json) std::cout << to_json(inspection, scene).dump(2) << '\n';
-    else std::cout << to_text(inspection, scene);
+    if (options.json)
+        std::cout << to_json(inspection, scene).dump(2) << '\n';
+    else
+        std::cout << to_text(inspection, scene);
 }
 
 }  // namespace
 
 void add_inspect_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "inspect", "Say what a scene needs, and what was left out and why");
+    CLI::App* command =
+        app.add_subcommand("inspect", "Say what a scene needs, and what was left out and why");
     const auto options = std::make_shared<RunOptions>();
     add_scene_options(*command, *options);
     add_talk_options(*command, *options);
@@ -135,7 +137,8 @@ void add_inspect_command(CLI::App& app) {
         "Uses no device.\n\n"
         "Examples:\n"
         "  weft inspect scenes/tablecloth.toml\n"
-        "  weft inspect scenes/tablecloth.toml --set obstacle=[] --set cloth.bend.stiffness=0 --json");
+        "  weft inspect scenes/tablecloth.toml --set obstacle=[] --set cloth.bend.stiffness=0 "
+        "--json");
     command->callback([options] { inspect_scene(*options); });
 }
 

@@ -20,8 +20,10 @@ void run_scene(const RunOptions& options) {
     const InterruptNotice notice;
     run.advance_all(notice);
     const RunSummary summary = run.finish();
-    if (options.json) std::cout << to_json(summary).dump(2) << std::endl;
-    else std::cout << to_text(summary) << std::flush;
+    if (options.json)
+        std::cout << to_json(summary).dump(2) << std::endl;
+    else
+        std::cout << to_text(summary) << std::flush;
     if (summary.finished) return;
     throw Interrupted(notice.signal(),
                       fmt::format("stopped by {} after {} of {} frames; they are in {}",
@@ -42,7 +44,8 @@ void add_run_command(CLI::App& app) {
         "wrong; 128 + signal: stopped by SIGINT, SIGTERM or SIGHUP after a whole frame.\n\n"
         "Examples:\n"
         "  weft run scenes/tablecloth.toml\n"
-        "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out out/big\n"
+        "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out "
+        "out/big\n"
         "  weft run scenes/skirt.toml --frames 5 --no-geometry --json --quiet");
     command->callback([options] { run_scene(*options); });
 }

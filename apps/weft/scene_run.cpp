@@ -20,7 +20,8 @@ std::filesystem::path folder_for(const RunOptions& options, const Scene& scene) 
 }
 
 bool touches_opencl(const std::string& devices) {
-    return devices.find("opencl") != std::string::npos || devices.find("hybrid") != std::string::npos;
+    return devices.find("opencl") != std::string::npos ||
+           devices.find("hybrid") != std::string::npos;
 }
 
 /// The devices that cannot keep strict arithmetic's promise.
@@ -53,7 +54,8 @@ RunDescription describe(const Simulation& simulation, const RunOptions& options)
 std::vector<GeometryBody> geometry_bodies(const Model& model) {
     std::vector<GeometryBody> bodies;
     for (const BodyRange& body : model.bodies) bodies.push_back({body.name, 0});
-    for (const int body : model.triangle_body) ++bodies[static_cast<std::size_t>(body)].triangle_count;
+    for (const int body : model.triangle_body)
+        ++bodies[static_cast<std::size_t>(body)].triangle_count;
     return bodies;
 }
 
@@ -61,7 +63,8 @@ std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
     std::vector<GeometryWriter::Triangle> triangles;
     triangles.reserve(model.triangles.size());
     const auto index = [](int vertex) { return static_cast<std::uint32_t>(vertex); };
-    for (const auto& t : model.triangles) triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
+    for (const auto& t : model.triangles)
+        triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
     return triangles;
 }
 

@@ -25,7 +25,8 @@ PlainSprings::PlainSprings(std::vector<Particle> particles, const Stencils& edge
         colours[colour].push_back(
             {edges[e][0], edges[e][1], std::sqrt(dx * dx + dy * dy + dz * dz), 0.0f});
     }
-    for (const auto& colour : colours) springs_.insert(springs_.end(), colour.begin(), colour.end());
+    for (const auto& colour : colours)
+        springs_.insert(springs_.end(), colour.begin(), colour.end());
 }
 
 void PlainSprings::sweep(float inverse_h2) {
@@ -39,8 +40,7 @@ void PlainSprings::sweep(float inverse_h2) {
         const float length = std::sqrt(dx * dx + dy * dy + dz * dz);
         const float weight = a.inverse_mass + b.inverse_mass;
         if (length <= 0.0f || weight == 0.0f) continue;
-        const float change =
-            (s.rest_length - length - alpha * s.multiplier) / (weight + alpha);
+        const float change = (s.rest_length - length - alpha * s.multiplier) / (weight + alpha);
         s.multiplier += change;
         const float push = change / length;
         a.x += push * a.inverse_mass * dx;

@@ -6,8 +6,8 @@
 #include "simulation/simulation.h"
 #include "simulation/topology/adjacency.h"
 
-// A hanging sheet of springs alone, frames of 10 substeps x 8 iterations on one core: the plain loop
-// against the packed and the scalar kernels. The counter is the time per projection.
+// A hanging sheet of springs alone, frames of 10 substeps x 8 iterations on one core: the plain
+// loop against the packed and the scalar kernels. The counter is the time per projection.
 namespace {
 
 using namespace weft;
@@ -27,7 +27,8 @@ substeps = 10
 iterations = 8
 [[cloth]]
 name = "sheet"
-grid = { size = [1.0, 1.0], resolution = [)" + n + ", " + n + R"(] }
+grid = { size = [1.0, 1.0], resolution = [)" +
+                           n + ", " + n + R"(] }
 density = 0.2
 stretch = { stiffness = 1.0e4 }
 pins = { corners = ["x-z-", "x+z-"] }

@@ -9,9 +9,11 @@ WEFT_KERNELS_BEGIN
 WEFT_INLINE nearness near_box(real3 p, float4 dimensions) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
-    const real3 side = make3(p.x < zero ? -one : one, p.y < zero ? -one : one, p.z < zero ? -one : one);
-    const real3 beyond = make3(p.x * side.x - splat(dimensions.x), p.y * side.y - splat(dimensions.y),
-                               p.z * side.z - splat(dimensions.z));
+    const real3 side =
+        make3(p.x < zero ? -one : one, p.y < zero ? -one : one, p.z < zero ? -one : one);
+    const real3 beyond =
+        make3(p.x * side.x - splat(dimensions.x), p.y * side.y - splat(dimensions.y),
+              p.z * side.z - splat(dimensions.z));
 
     // Outside: towards the closest point of the box. Inside: out through the closest face.
     const real3 gap = make3(larger(beyond.x, zero), larger(beyond.y, zero), larger(beyond.z, zero));

@@ -1,8 +1,8 @@
 #ifndef WEFT_KERNELS_OBSTACLES_CAPSULE_H
 #define WEFT_KERNELS_OBSTACLES_CAPSULE_H
 
-#include "kernels/obstacles/contact.h"
 #include "kernels/obstacles/ball.h"
+#include "kernels/obstacles/contact.h"
 
 WEFT_KERNELS_BEGIN
 

@@ -44,8 +44,8 @@ WEFT_INLINE real push_depth(WEFT_GLOBAL const float4* obstacle, real distance, r
 }
 
 /// Coulomb friction on positions (Macklin et al. 2014, section 6.1): takes back the tangential part
-/// of the vertex's way along the surface, by friction * depth at the most. The obstacle's own motion
-/// counts: the point of the obstacle where the vertex is now, was at S . (W . x) before.
+/// of the vertex's way along the surface, by friction * depth at the most. The obstacle's own
+/// motion counts: the point of the obstacle where the vertex is now, was at S . (W . x) before.
 WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed, real3 previous,
                                 real3 normal, real depth) {
     const real3 carried = apply(obstacle + 3, apply(obstacle, pushed));
@@ -60,30 +60,30 @@ WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed
 /// previous    [vertices] xyz at the substep's start [m]
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
 /// obstacle    which one
-#define WEFT_OBSTACLE_KERNELS(shape, nearness_of)                                                   \
-    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                                 \
-                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,              \
-                int substep) {                                                                      \
-        WEFT_GLOBAL const float4* o =                                                               \
-            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                 \
-        const real4 x = load4(positions, i);                                                        \
-        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                  \
-        const real depth = push_depth(o, near.distance, x.w);                                       \
-        store4(positions, i, with_w(add_scaled(xyz(x), apply_back(o, near.normal), depth), x.w));   \
-    }                                                                                               \
-                                                                                                    \
-    WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous,  \
-                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,              \
-                int substep) {                                                                      \
-        WEFT_GLOBAL const float4* o =                                                               \
-            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                 \
-        const real4 x = load4(positions, i);                                                        \
-        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                  \
-        const real depth = push_depth(o, near.distance, x.w);                                       \
-        const real3 normal = apply_back(o, near.normal);                                            \
-        const real3 pushed = add_scaled(xyz(x), normal, depth);                                     \
-        const real3 slid = friction_step(o, pushed, xyz(load4(previous, i)), normal, depth);        \
-        store4(positions, i, with_w(add(pushed, slid), x.w));                                       \
+#define WEFT_OBSTACLE_KERNELS(shape, nearness_of)                                                  \
+    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                                \
+                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,             \
+                int substep) {                                                                     \
+        WEFT_GLOBAL const float4* o =                                                              \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
+        const real4 x = load4(positions, i);                                                       \
+        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                 \
+        const real depth = push_depth(o, near.distance, x.w);                                      \
+        store4(positions, i, with_w(add_scaled(xyz(x), apply_back(o, near.normal), depth), x.w));  \
+    }                                                                                              \
+                                                                                                   \
+    WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous, \
+                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,             \
+                int substep) {                                                                     \
+        WEFT_GLOBAL const float4* o =                                                              \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
+        const real4 x = load4(positions, i);                                                       \
+        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                 \
+        const real depth = push_depth(o, near.distance, x.w);                                      \
+        const real3 normal = apply_back(o, near.normal);                                           \
+        const real3 pushed = add_scaled(xyz(x), normal, depth);                                    \
+        const real3 slid = friction_step(o, pushed, xyz(load4(previous, i)), normal, depth);       \
+        store4(positions, i, with_w(add(pushed, slid), x.w));                                      \
     }
 
 WEFT_KERNELS_END

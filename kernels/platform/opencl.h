@@ -75,8 +75,8 @@ WEFT_INLINE integer lane_indices(item i) {
     return k;
 }
 
-// Rows of 4 to columns of 8 and back, in pairs of 128-bit halves as in packed.h: written like this, a
-// compiler sees shuffles of whole registers.
+// Rows of 4 to columns of 8 and back, in pairs of 128-bit halves as in packed.h: written like this,
+// a compiler sees shuffles of whole registers.
 #define WEFT_LOW_PAIRS(a, b) (real)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5)
 #define WEFT_HIGH_PAIRS(a, b) (real)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7)
 #define WEFT_LOW_QUADS(a, b) (real)(a.s01, b.s01, a.s45, b.s45)

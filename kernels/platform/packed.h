@@ -73,8 +73,8 @@ WEFT_INLINE quad load_quad(const float4* p) {
 WEFT_INLINE real4 gather4(const float4* p, integer k) {
     real rows[4];  // rows[j]: p[k[j]] in the lower half, p[k[j + 4]] in the upper
     for (int j = 0; j < 4; ++j) {
-        rows[j] = __builtin_shufflevector(load_quad(p + k[j]), load_quad(p + k[j + 4]), 0, 1, 2, 3, 4,
-                                          5, 6, 7);
+        rows[j] = __builtin_shufflevector(load_quad(p + k[j]), load_quad(p + k[j + 4]), 0, 1, 2, 3,
+                                          4, 5, 6, 7);
     }
     const real xy01 = __builtin_shufflevector(rows[0], rows[1], 0, 8, 1, 9, 4, 12, 5, 13);
     const real xy23 = __builtin_shufflevector(rows[2], rows[3], 0, 8, 1, 9, 4, 12, 5, 13);

@@ -15,23 +15,23 @@ struct alignas(16) float4 {
 
 #define WEFT_GLOBAL
 #define WEFT_INLINE inline __attribute__((always_inline))
-#define WEFT_KERNELS_BEGIN \
+#define WEFT_KERNELS_BEGIN    \
     namespace weft::kernels { \
     inline namespace WEFT_TARGET {
 #define WEFT_KERNELS_END \
-    } \
+    }                    \
     }
 
 /// Defines a kernel: WEFT_KERNEL(name, parameters...) { body for item i }.
 /// `weft::kernels::name` is then a constant whose type carries the signature, for typed launches.
-#define WEFT_KERNEL(name, ...) \
-    struct name##_kernel { \
-        static constexpr const char* kName = #name; \
-        static constexpr const char* kFile = __FILE__; \
-        static constexpr int kLaneCount = kLanes; \
-        using Item = item; \
-        static inline void run(item i, __VA_ARGS__); \
-    }; \
-    inline constexpr name##_kernel name{}; \
+#define WEFT_KERNEL(name, ...)                                             \
+    struct name##_kernel {                                                 \
+        static constexpr const char* kName = #name;                        \
+        static constexpr const char* kFile = __FILE__;                     \
+        static constexpr int kLaneCount = kLanes;                          \
+        using Item = item;                                                 \
+        static inline void run(item i, __VA_ARGS__);                       \
+    };                                                                     \
+    inline constexpr name##_kernel name{};                                 \
     inline const bool name##_is_registered = WEFT_REGISTER(name##_kernel); \
     WEFT_INLINE void name##_kernel::run(item i, __VA_ARGS__)

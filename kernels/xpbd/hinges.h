@@ -36,8 +36,7 @@ WEFT_KERNEL(project_hinges, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const int
     const real3 high = add_scaled(scale(xyz(x2), q2), xyz(x3), q3);
     const real3 bend = add(low, high);
     const real error = length3(bend);
-    const real mobility =
-        (x0.w * q0 * q0 + x1.w * q1 * q1) + (x2.w * q2 * q2 + x3.w * q3 * q3);
+    const real mobility = (x0.w * q0 * q0 + x1.w * q1 * q1) + (x2.w * q2 * q2 + x3.w * q3 * q3);
     const real change = (-error - inverse_h2 * multiplier) / (mobility + inverse_h2);
     const real3 push = scale(bend, change / divisor(error));
 

@@ -29,8 +29,7 @@ WEFT_KERNEL(project_springs, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const in
     const real3 along = subtract(xyz(x0), xyz(x1));
     const real length = length3(along);
     const real error = length - rest_length;
-    const real change =
-        (-error - compliance * multiplier) / (x0.w + x1.w + compliance);
+    const real change = (-error - compliance * multiplier) / (x0.w + x1.w + compliance);
     const real push = change / divisor(length);
 
     store(multipliers, i, multiplier + change);

@@ -12,7 +12,8 @@ struct CodeName {
     const char* name;
 };
 
-#define WEFT_CODE(code) {code, #code}
+#define WEFT_CODE(code) \
+    { code, #code }
 constexpr CodeName kCodes[] = {
     WEFT_CODE(CL_DEVICE_NOT_FOUND),
     WEFT_CODE(CL_DEVICE_NOT_AVAILABLE),

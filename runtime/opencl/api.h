@@ -1,6 +1,7 @@
 #pragma once
 
-// The Khronos C++ bindings, as everything in this folder uses them: OpenCL 1.2, errors as exceptions.
+// The Khronos C++ bindings, as everything in this folder uses them: OpenCL 1.2, errors as
+// exceptions.
 
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120

@@ -5,7 +5,8 @@ namespace weft {
 namespace {
 
 void CL_CALLBACK run_callback(cl_event, cl_int, void* data) {
-    const std::unique_ptr<std::function<void()>> callback(static_cast<std::function<void()>*>(data));
+    const std::unique_ptr<std::function<void()>> callback(
+        static_cast<std::function<void()>*>(data));
     (*callback)();
 }
 

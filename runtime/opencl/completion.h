@@ -18,8 +18,8 @@ private:
     cl::Event event_;
 };
 
-/// An event of `context` that is done when all of `waits` are. Those of the same context are used as
-/// they are; others, and the host's, are passed on through user events.
+/// An event of `context` that is done when all of `waits` are. Those of the same context are used
+/// as they are; others, and the host's, are passed on through user events.
 std::vector<cl::Event> events_for(const cl::Context& context, std::span<Completion* const> waits);
 
 }  // namespace weft

@@ -53,8 +53,8 @@ MemoryModel memory_model(const cl::Device& device) {
 
 /// CPU devices need no flag for correct rounding: their instructions round correctly.
 bool rounds_correctly(const cl::Device& device) {
-    return is_type(device, CL_DEVICE_TYPE_CPU) ||
-           (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+    return is_type(device, CL_DEVICE_TYPE_CPU) || (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() &
+                                                   CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
 }
 
 OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {

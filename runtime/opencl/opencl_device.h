@@ -20,11 +20,12 @@ struct OpenClDeviceSummary {
     bool is_gpu = false;
 };
 
-/// All devices of all platforms; none where there is no platform. Initialises OpenCL at the first call.
+/// All devices of all platforms; none where there is no platform. Initialises OpenCL at the first
+/// call.
 std::vector<OpenClDeviceSummary> opencl_devices();
 
-/// Opens device `index` of opencl_devices(). With `parts`, the device is divided into sub-devices of
-/// so many compute units each, from its first unit on, and one device is opened per part.
+/// Opens device `index` of opencl_devices(). With `parts`, the device is divided into sub-devices
+/// of so many compute units each, from its first unit on, and one device is opened per part.
 std::vector<std::unique_ptr<Device>> open_opencl_device(int index, const std::vector<int>& parts,
                                                         const DeviceOptions& options);
 

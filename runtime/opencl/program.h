@@ -18,8 +18,8 @@ enum class EntryStyle {
 std::string entry_name(std::size_t body);
 std::string entry_name(std::size_t body, std::size_t launch);
 
-/// OpenCL C for all kernels that the bodies launch, and the entry points that loop over their items.
-/// Nothing else is in it: a kernel that no body names is not compiled.
+/// OpenCL C for all kernels that the bodies launch, and the entry points that loop over their
+/// items. Nothing else is in it: a kernel that no body names is not compiled.
 std::string program_text(std::span<const TaskBody* const> bodies, EntryStyle style);
 
 struct BuildOptions {
@@ -28,8 +28,8 @@ struct BuildOptions {
 };
 
 /// Builds a program, or takes its binary from the cache folder on disk ($WEFT_CACHE_DIR, else weft
-/// below $XDG_CACHE_HOME or ~/.cache). A cache that cannot be used is passed over. Throws RunError with
-/// the build log.
+/// below $XDG_CACHE_HOME or ~/.cache). A cache that cannot be used is passed over. Throws RunError
+/// with the build log.
 cl::Program build_program(const cl::Context& context, const cl::Device& device,
                           const std::string& text, const BuildOptions& options);
 

@@ -63,7 +63,8 @@ void write_file(const fs::path& path, const std::vector<unsigned char>& bytes) {
     const fs::path part = path.string() + "." + std::to_string(::getpid());
     {
         std::ofstream out(part, std::ios::binary);
-        out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        out.write(reinterpret_cast<const char*>(bytes.data()),
+                  static_cast<std::streamsize>(bytes.size()));
         if (!out.flush()) {
             fs::remove(part, ignored);
             return;
@@ -100,9 +101,9 @@ cl::Program build_program(const cl::Context& context, const cl::Device& device,
     try {
         program.build(device, flags.c_str());
     } catch (const cl::Error& error) {
-        throw RunError(opencl_error("building kernels for " + device.getInfo<CL_DEVICE_NAME>(), error)
-                           .what() +
-                       std::string("\n") + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
+        throw RunError(
+            opencl_error("building kernels for " + device.getInfo<CL_DEVICE_NAME>(), error).what() +
+            std::string("\n") + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
     }
     if (!path.empty()) {
         const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();

@@ -19,8 +19,8 @@ public:
     void add(std::string_view path) {
         if (!seen_.emplace(path).second) return;
         const auto files = kernels::source_files();
-        const auto file = std::find_if(files.begin(), files.end(),
-                                        [&](const auto& f) { return f.path == path; });
+        const auto file =
+            std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.path == path; });
         // Headers of the C++ targets are not embedded, and nothing here needs them.
         if (file != files.end()) append(*file);
     }
@@ -48,14 +48,22 @@ private:
 
 const char* type_name(Parameter parameter) {
     switch (parameter) {
-        case Parameter::kReadFloat: return "__global const float* ";
-        case Parameter::kReadInt: return "__global const int* ";
-        case Parameter::kReadFloat4: return "__global const float4* ";
-        case Parameter::kWriteFloat: return "__global float* ";
-        case Parameter::kWriteInt: return "__global int* ";
-        case Parameter::kWriteFloat4: return "__global float4* ";
-        case Parameter::kFloat: return "float ";
-        case Parameter::kInt: return "int ";
+        case Parameter::kReadFloat:
+            return "__global const float* ";
+        case Parameter::kReadInt:
+            return "__global const int* ";
+        case Parameter::kReadFloat4:
+            return "__global const float4* ";
+        case Parameter::kWriteFloat:
+            return "__global float* ";
+        case Parameter::kWriteInt:
+            return "__global int* ";
+        case Parameter::kWriteFloat4:
+            return "__global float4* ";
+        case Parameter::kFloat:
+            return "float ";
+        case Parameter::kInt:
+            return "int ";
     }
     throw std::logic_error("unknown parameter type");
 }
@@ -88,13 +96,13 @@ std::string segment_parameters(std::size_t launch) {
 /// Points to the first item of the strip's colour; behind it stands where that colour ends.
 std::string segment_of(std::size_t launch) {
     const std::string l = std::to_string(launch);
-    return "    __global const int* segment = segments" + l + " + first" + l + " + strip * colours" +
-           l + " + colour;\n";
+    return "    __global const int* segment = segments" + l + " + first" + l +
+           " + strip * colours" + l + " + colour;\n";
 }
 
 void per_strip_loop(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "    for (int colour = 0; colour < colours" << l << "; ++colour) {\n    " << segment_of(l)
-        << "        int begin = segment[0];\n"
+    out << "    for (int colour = 0; colour < colours" << l << "; ++colour) {\n    "
+        << segment_of(l) << "        int begin = segment[0];\n"
         << "        int end = segment[1];\n"
         << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
         << "            item i = {begin, WEFT_LANES};\n            ";
@@ -122,7 +130,8 @@ void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number
 }
 
 /// Work-items (item, strip); in strips with fewer items than the largest, some have nothing to do.
-void per_colour_entry(std::ostream& out, const Launch& launch, std::size_t body, std::size_t number) {
+void per_colour_entry(std::ostream& out, const Launch& launch, std::size_t body,
+                      std::size_t number) {
     out << "__kernel void " << entry_name(body, number) << "(";
     declare_parameters(out, launch, number);
     out << segment_parameters(number) << "int colour, int first_strip, int instance) {\n"

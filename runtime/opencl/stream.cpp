@@ -73,11 +73,13 @@ const cl::Buffer& OpenClStream::memory_of(BufferStorage& buffer) {
     return memory_.emplace(&buffer, make_memory(target_, buffer)).first->second;
 }
 
-cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch) {
+cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index,
+                                           const Launch& launch) {
     for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
         const Argument& argument = launch.arguments[k];
         if (argument.is_instance) continue;
-        if (argument.buffer != nullptr) kernel.setArg(index++, memory_of(*argument.buffer));
+        if (argument.buffer != nullptr)
+            kernel.setArg(index++, memory_of(*argument.buffer));
         else if (launch.kernel->parameters[k] == kernels::Parameter::kFloat) {
             kernel.setArg(index++, argument.real);
         } else {
@@ -131,8 +133,10 @@ Completion* OpenClStream::submit(const Submission& s) {
         Running& running = running_.emplace_back();
         running.instance = s.instance;
         running.task = s.number;
-        if (target_.style == EntryStyle::kPerStrip) run_strips(*bound, s, waits, running);
-        else run_colours(*bound, s, waits, running);
+        if (target_.style == EntryStyle::kPerStrip)
+            run_strips(*bound, s, waits, running);
+        else
+            run_colours(*bound, s, waits, running);
         return remember(running.last);
     } catch (const cl::Error& error) {
         throw opencl_error(target_.info.name + ", task '" + s.task->body->name + "'", error);

@@ -136,8 +136,8 @@ public:
         worker_ = std::jthread([this](std::stop_token stop) { work(stop); });
     }
 
-    /// Whoever still waits for jobs that will not run (a device failed in mid-submission) must not wait
-    /// for ever.
+    /// Whoever still waits for jobs that will not run (a device failed in mid-submission) must not
+    /// wait for ever.
     ~CpuStream() override {
         worker_.request_stop();
         worker_.join();
@@ -176,12 +176,10 @@ public:
     }
 
     // This device works in the host's memory: there is nothing to copy.
-    Completion* to_device(BufferStorage&, ElementSpan,
-                          std::span<Completion* const>) override {
+    Completion* to_device(BufferStorage&, ElementSpan, std::span<Completion* const>) override {
         return nullptr;
     }
-    Completion* to_host(BufferStorage&, ElementSpan,
-                        std::span<Completion* const>) override {
+    Completion* to_host(BufferStorage&, ElementSpan, std::span<Completion* const>) override {
         return nullptr;
     }
 

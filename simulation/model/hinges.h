@@ -7,9 +7,9 @@
 
 namespace weft {
 
-/// The weights K of Bergou et al. 2006 ("A quadratic bending model for inextensible surfaces") times
-/// sqrt(3 / (A0 + A1)): the hinge's energy is k/2 |sum_j weight_j x_j|^2. Zero for a flat sheet.
-/// corners: the edge's two vertices, the two opposite.
+/// The weights K of Bergou et al. 2006 ("A quadratic bending model for inextensible surfaces")
+/// times sqrt(3 / (A0 + A1)): the hinge's energy is k/2 |sum_j weight_j x_j|^2. Zero for a flat
+/// sheet. corners: the edge's two vertices, the two opposite.
 std::array<double, 4> hinge_weights(const std::array<Vec3, 4>& corners);
 
 /// Quadratic bending over the hinges.

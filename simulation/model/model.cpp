@@ -31,9 +31,12 @@ void append(Stencils& all, const Stencils& some, int first_vertex) {
 /// A third of each triangle's mass to each of its corners.
 void add_masses(Gathered& all, const TriangleMesh& mesh, double density, std::size_t first) {
     for (const auto& t : mesh.triangles) {
-        const auto corner = [&](int k) { return mesh.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
+        const auto corner = [&](int k) {
+            return mesh.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+        };
         const double area = 0.5 * length(cross(corner(1) - corner(0), corner(2) - corner(0)));
-        for (const int vertex : t) all.masses[first + static_cast<std::size_t>(vertex)] += density * area / 3.0;
+        for (const int vertex : t)
+            all.masses[first + static_cast<std::size_t>(vertex)] += density * area / 3.0;
     }
 }
 
@@ -69,9 +72,11 @@ std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> group
     for (MovingPins::Group& group : groups) {
         std::vector<std::pair<int, Vec3>> pins;
         for (std::size_t i = 0; i < group.vertices.size(); ++i) {
-            pins.emplace_back(strips.rank[static_cast<std::size_t>(group.vertices[i])], group.rest[i]);
+            pins.emplace_back(strips.rank[static_cast<std::size_t>(group.vertices[i])],
+                              group.rest[i]);
         }
-        std::sort(pins.begin(), pins.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::sort(pins.begin(), pins.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
         for (std::size_t i = 0; i < pins.size(); ++i) {
             std::tie(group.vertices[i], group.rest[i]) = pins[i];
         }
@@ -81,8 +86,7 @@ std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> group
 
 }  // namespace
 
-Model::Model(const Scene& given, Warnings& warnings)
-    : scene(given), h(given.dt / given.substeps) {
+Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt / given.substeps) {
     Gathered all;
     for (const Cloth& cloth : scene.cloths) {
         const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
@@ -128,8 +132,8 @@ Model::Model(const Scene& given, Warnings& warnings)
     springs = std::make_unique<Springs>(all.edges, strips, all.rest, all.edge_stiffness);
     if (bends) hinges = std::make_unique<Hinges>(all.hinges, strips, all.rest, all.hinge_stiffness);
     if (!all.moving.empty()) {
-        moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips), strips,
-                                                   scene.substeps);
+        moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
+                                                   strips, scene.substeps);
     }
     if (!scene.obstacles.empty()) {
         obstacles = std::make_unique<Obstacles>(scene.obstacles, scene.substeps);

@@ -20,9 +20,9 @@ struct BodyRange {
     int vertex_count = 0;
 };
 
-/// A scene as buffers, in the order that strips and colours give it. Whatever the scene does not name
-/// is not there. "Scene order" is the order of the meshes' vertices, cloth by cloth; "new order" is
-/// that of the buffers.
+/// A scene as buffers, in the order that strips and colours give it. Whatever the scene does not
+/// name is not there. "Scene order" is the order of the meshes' vertices, cloth by cloth; "new
+/// order" is that of the buffers.
 class Model {
 public:
     /// Throws UserError for what is wrong with the scene's meshes and pins.
@@ -47,17 +47,17 @@ public:
 
     // On the devices (new order).
     Strips strips;
-    std::unique_ptr<Buffer<float4>> positions;   ///< xyz [m], w = 1/mass [1/kg], 0 for held vertices
-    std::unique_ptr<Buffer<float4>> previous;    ///< xyz at the substep's start
+    std::unique_ptr<Buffer<float4>> positions;  ///< xyz [m], w = 1/mass [1/kg], 0 for held vertices
+    std::unique_ptr<Buffer<float4>> previous;   ///< xyz at the substep's start
     std::unique_ptr<Buffer<float4>> velocities;  ///< xyz [m/s], w = what damping leaves per substep
     std::unique_ptr<Buffer<float4>> gravity;     ///< [substeps] xyz [m/s^2]
     std::vector<double> masses;                  ///< [kg]; of held vertices, too
     bool damped = false;
 
     std::unique_ptr<Springs> springs;
-    std::unique_ptr<Hinges> hinges;          ///< null: no bending
-    std::unique_ptr<MovingPins> moving_pins; ///< null: no pin moves
-    std::unique_ptr<Obstacles> obstacles;    ///< null: none
+    std::unique_ptr<Hinges> hinges;           ///< null: no bending
+    std::unique_ptr<MovingPins> moving_pins;  ///< null: no pin moves
+    std::unique_ptr<Obstacles> obstacles;     ///< null: none
 
 private:
     std::unique_ptr<Buffer<int>> strip_begin_;

@@ -13,16 +13,17 @@ MovingPins::MovingPins(std::vector<Group> groups, const Strips& strips, int subs
       motions_("pins.motions", static_cast<std::size_t>(substeps) * groups_.size() * 3) {
     for (const Group& group : groups_) {
         const std::size_t count = group.vertices.size();
-        auto table = std::unique_ptr<Table>(
-            new Table{{"pins.vertices", count}, {"pins.rest", count},
-                      {"pins.segments", strips.begin.size()}, {}});
+        auto table = std::unique_ptr<Table>(new Table{{"pins.vertices", count},
+                                                      {"pins.rest", count},
+                                                      {"pins.segments", strips.begin.size()},
+                                                      {}});
         for (std::size_t i = 0; i < count; ++i) {
             table->vertices[i] = group.vertices[i];
             table->rest[i] = to_float4(group.rest[i]);
         }
         for (std::size_t s = 0; s < strips.begin.size(); ++s) {
-            const auto first = std::lower_bound(group.vertices.begin(), group.vertices.end(),
-                                                strips.begin[s]);
+            const auto first =
+                std::lower_bound(group.vertices.begin(), group.vertices.end(), strips.begin[s]);
             table->segment_begin[s] = static_cast<int>(first - group.vertices.begin());
         }
         table->segments = {&table->segment_begin, 0, 1, strips.count()};

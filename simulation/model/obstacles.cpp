@@ -64,8 +64,8 @@ void write_placement(float4* rows, const Obstacle& obstacle, double start, doubl
 Obstacles::Obstacles(const std::vector<Obstacle>& obstacles, int substeps)
     : obstacles_(obstacles),
       substeps_(substeps),
-      placements_("obstacles", static_cast<std::size_t>(substeps) * obstacles.size() *
-                                   WEFT_OBSTACLE_ROWS) {}
+      placements_("obstacles",
+                  static_cast<std::size_t>(substeps) * obstacles.size() * WEFT_OBSTACLE_ROWS) {}
 
 void Obstacles::place(double time, double h) {
     float4* rows = placements_.data();

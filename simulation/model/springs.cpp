@@ -12,9 +12,11 @@ Springs::Springs(const Stencils& edges, const Strips& strips, std::span<const Ve
     for (std::size_t s = 0; s < count; ++s) {
         const int original = elements.original(static_cast<int>(s));
         const auto ends = edges[original];
-        const Vec3 along = rest[static_cast<std::size_t>(ends[0])] - rest[static_cast<std::size_t>(ends[1])];
+        const Vec3 along =
+            rest[static_cast<std::size_t>(ends[0])] - rest[static_cast<std::size_t>(ends[1])];
         material[s] = static_cast<float>(length(along));
-        material[count + s] = static_cast<float>(1.0 / stiffness[static_cast<std::size_t>(original)]);
+        material[count + s] =
+            static_cast<float>(1.0 / stiffness[static_cast<std::size_t>(original)]);
     }
 }
 

@@ -14,9 +14,12 @@ struct Springs {
     Springs(const Stencils& edges, const Strips& strips, std::span<const Vec3> rest,
             std::span<const double> stiffness);
 
-    double rest_length(int spring) const { return material[static_cast<std::size_t>(spring)]; }
+    double rest_length(int spring) const {
+        return static_cast<double>(material[static_cast<std::size_t>(spring)]);
+    }
     double stiffness(int spring) const {
-        return 1.0 / static_cast<double>(material[static_cast<std::size_t>(elements.count() + spring)]);
+        return 1.0 /
+               static_cast<double>(material[static_cast<std::size_t>(elements.count() + spring)]);
     }
     /// [J], in double precision.
     double energy(std::span<const float4> positions) const;

@@ -154,10 +154,10 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
 std::string to_text(const RunSummary& summary) {
     std::string text;
     line(text, "scene", summary.scene);
-    line(text, "frames",
-         fmt::format("{} ({:.4g} s simulated) in {:.3f} s{}", summary.frames,
-                     summary.simulated_time, summary.wall_time,
-                     summary.finished ? "" : "; not all of them"));
+    line(
+        text, "frames",
+        fmt::format("{} ({:.4g} s simulated) in {:.3f} s{}", summary.frames, summary.simulated_time,
+                    summary.wall_time, summary.finished ? "" : "; not all of them"));
     if (summary.frames == 0) return text;
     line(text, "time per frame",
          fmt::format("median {:.3f} ms, p95 {:.3f} ms", 1e3 * summary.frame_median,

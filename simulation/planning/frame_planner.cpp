@@ -182,8 +182,10 @@ void FramePlanner::fill(const Division& division) {
     Candidate& c = candidate(division);
     refresh(c, c.pinned, true);
     heft_.schedule(c.pinned, current_.plan);
-    if (!fixed_ && division.devices().size() > 1) place_anywhere(c);
-    else bounds_.apply(c.pinned, current_.plan);
+    if (!fixed_ && division.devices().size() > 1)
+        place_anywhere(c);
+    else
+        bounds_.apply(c.pinned, current_.plan);
     current_.step = &c.step;
     current_.division = division;
     current_.substep_time = current_.plan.makespan * correction(division.mask());
@@ -214,8 +216,10 @@ std::vector<FramePlan> FramePlanner::calibration() {
     };
     // Cut in two and run by one device: so each kind of task is seen with few and with many items.
     for (int d = 0; d < device_count(); ++d) {
-        if (device_count() > 1 && strip_count_ > 1) add(mixture_, d);
-        else add(Division::single(device_count(), strip_count_, d), d);
+        if (device_count() > 1 && strip_count_ > 1)
+            add(mixture_, d);
+        else
+            add(Division::single(device_count(), strip_count_, d), d);
     }
     if (device_count() > 1 && strip_count_ > 1) add(mixture_, -1);
     return plans;
@@ -237,9 +241,9 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
     }
 }
 
-/// A task's cost runs from when it could have started (its device was free and its data were there) to
-/// its end: so it holds what the device needs to get going. What lies before that, when a device waited
-/// for another one, is the latency between the two.
+/// A task's cost runs from when it could have started (its device was free and its data were there)
+/// to its end: so it holds what the device needs to get going. What lies before that, when a device
+/// waited for another one, is the latency between the two.
 void FramePlanner::learn_tasks(const FramePlan& plan, const RunTimes& times, int instances) {
     const auto& tasks = plan.step->tasks();
     const std::size_t count = tasks.size();
@@ -280,7 +284,8 @@ void FramePlanner::learn_tasks(const FramePlan& plan, const RunTimes& times, int
         for (const TaskTime& time : times.tasks[device]) {
             const Arrival& arrival = arrivals[at(time.instance, time.task)];
             if (arrival.from >= 0 && arrival.data > free) {
-                waits[index(arrival.from, static_cast<int>(device))].push_back(time.start - arrival.data);
+                waits[index(arrival.from, static_cast<int>(device))].push_back(time.start -
+                                                                               arrival.data);
             }
             const double could_start = std::min(time.start, std::max(free, arrival.ready));
             const Task& task = tasks[static_cast<std::size_t>(time.task)];
@@ -296,9 +301,9 @@ void FramePlanner::learn_tasks(const FramePlan& plan, const RunTimes& times, int
     }
 }
 
-/// What a plan as a whole is off by (submission, caches that two devices share): the median ratio of
-/// the last frames corrects the next prediction. Divisions out of use drift back to no correction, or
-/// one bad spell would rule them out for good.
+/// What a plan as a whole is off by (submission, caches that two devices share): the median ratio
+/// of the last frames corrects the next prediction. Divisions out of use drift back to no
+/// correction, or one bad spell would rule them out for good.
 void FramePlanner::learn_correction(const FramePlan& plan, const RunTimes& times, int instances) {
     const double planned = plan.plan.makespan * instances;
     for (auto& [mask, ratios] : ratios_) {

@@ -23,9 +23,10 @@ enum class PlanKind {
 struct FramePlan {
     const Step* step = nullptr;  ///< owned by the planner
     Division division;
-    scheduler::Plan plan;      ///< of one substep [s]
-    double substep_time = 0.0; ///< planned [s]: the plan's makespan, corrected as earlier plans were off
-    double plan_time = 0.0;    ///< what planning took [s]
+    scheduler::Plan plan;  ///< of one substep [s]
+    double substep_time =
+        0.0;  ///< planned [s]: the plan's makespan, corrected as earlier plans were off
+    double plan_time = 0.0;  ///< what planning took [s]
 };
 
 /// Plans every frame anew: divides the strips among the devices and places the tasks that follow
@@ -33,8 +34,8 @@ struct FramePlan {
 class FramePlanner {
 public:
     /// division: instead of searching for one, for tests and studies.
-    FramePlanner(Solver& solver, int strip_count, const std::vector<Device*>& devices, PlanKind kind,
-                 std::optional<Division> division = std::nullopt);
+    FramePlanner(Solver& solver, int strip_count, const std::vector<Device*>& devices,
+                 PlanKind kind, std::optional<Division> division = std::nullopt);
 
     /// Plans that make every device and every exchange known; to be run once at the start, each
     /// followed by learn(). State does not matter.
@@ -52,11 +53,11 @@ private:
     /// A division's step and its two graphs.
     struct Candidate {
         Step step;
-        std::vector<int> devices;        ///< [region]
-        scheduler::TaskGraph pinned;     ///< every task on its region's device
-        scheduler::TaskGraph free;       ///< every task anywhere
-        double makespan = 0.0;           ///< predicted, pinned
-        long predicted_in = -1;          ///< the frame in which it was
+        std::vector<int> devices;     ///< [region]
+        scheduler::TaskGraph pinned;  ///< every task on its region's device
+        scheduler::TaskGraph free;    ///< every task anywhere
+        double makespan = 0.0;        ///< predicted, pinned
+        long predicted_in = -1;       ///< the frame in which it was
     };
 
     std::size_t index(int from, int to) const {
@@ -86,11 +87,12 @@ private:
     PlanKind kind_;
     std::optional<Division> fixed_;
     scheduler::CostModel costs_;
-    std::vector<double> latency_;    ///< [from][to]
-    Division mixture_;               ///< the best known one of all devices
-    std::optional<Division> last_;   ///< what the last frame used
+    std::vector<double> latency_;   ///< [from][to]
+    Division mixture_;              ///< the best known one of all devices
+    std::optional<Division> last_;  ///< what the last frame used
     std::map<Division, std::unique_ptr<Candidate>> candidates_;
-    std::map<unsigned, std::vector<double>> ratios_;  ///< [mask] measured / planned, last few frames
+    std::map<unsigned, std::vector<double>>
+        ratios_;  ///< [mask] measured / planned, last few frames
     FramePlan current_;
     long frame_ = 0;
     // Working memory.

@@ -10,8 +10,8 @@
 
 namespace weft {
 
-/// A way to advance a model by one substep, as tasks. It says what there is to do and in which order
-/// the results are defined; which device does what is the planner's business.
+/// A way to advance a model by one substep, as tasks. It says what there is to do and in which
+/// order the results are defined; which device does what is the planner's business.
 class Solver {
 public:
     virtual ~Solver() = default;

@@ -86,19 +86,22 @@ private:
         predict_.launches.push_back(launch(kernels::predict, model_.vertices(), *model_.positions,
                                            *model_.previous, *model_.velocities, *model_.gravity,
                                            static_cast<float>(model_.h), kInstance));
-        if (model_.moving_pins) model_.moving_pins->add_launches(predict_.launches, *model_.positions);
+        if (model_.moving_pins)
+            model_.moving_pins->add_launches(predict_.launches, *model_.positions);
     }
 
     void make_velocities() {
         velocities_ = {"velocities", kVelocities, {}};
         const auto update = [&](auto kernel) {
-            velocities_.launches.push_back(launch(
-                kernel, model_.vertices(), *model_.positions, *model_.previous, *model_.velocities,
-                *model_.gravity, static_cast<float>(model_.h), static_cast<float>(1.0 / model_.h),
-                kInstance));
+            velocities_.launches.push_back(launch(kernel, model_.vertices(), *model_.positions,
+                                                  *model_.previous, *model_.velocities,
+                                                  *model_.gravity, static_cast<float>(model_.h),
+                                                  static_cast<float>(1.0 / model_.h), kInstance));
         };
-        if (model_.damped) update(kernels::update_damped_velocities);
-        else update(kernels::update_velocities);
+        if (model_.damped)
+            update(kernels::update_damped_velocities);
+        else
+            update(kernels::update_velocities);
     }
 
     std::vector<Launch> project(Phase phase, int fresh) {
@@ -167,7 +170,8 @@ private:
         const auto first = static_cast<std::size_t>(begin);
         const auto last = static_cast<std::size_t>(end - 1);
         auto task = step.add(body, iteration, begin, end, id);
-        task.updates(*model_.positions, model_.strips.seam_begin[first], model_.strips.seam_end[last]);
+        task.updates(*model_.positions, model_.strips.seam_begin[first],
+                     model_.strips.seam_end[last]);
         update_multipliers(task, body);
     }
 
@@ -197,6 +201,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Solver> make_xpbd_solver(Model& model) { return std::make_unique<XpbdSolver>(model); }
+std::unique_ptr<Solver> make_xpbd_solver(Model& model) {
+    return std::make_unique<XpbdSolver>(model);
+}
 
 }  // namespace weft

@@ -8,7 +8,8 @@ namespace weft {
 ///
 /// A substep: predict, then `iterations` times
 ///   seams:  all elements between two strips; springs, then hinges, colour by colour
-///   strips: all elements inside a strip likewise, then obstacles, so that an iteration ends without
+///   strips: all elements inside a strip likewise, then obstacles, so that an iteration ends
+///   without
 ///           penetration
 /// then velocities. This order is the same for every number of devices: it defines the result.
 std::unique_ptr<Solver> make_xpbd_solver(Model& model);

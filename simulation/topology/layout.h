@@ -20,8 +20,8 @@ struct ElementRange {
     bool empty() const { return begin == end; }
 };
 
-/// The elements of one kind, stored by (phase, strip, colour), and by lowest vertex within. So what a
-/// strip needs, and what a range of strips needs, is one stretch of memory.
+/// The elements of one kind, stored by (phase, strip, colour), and by lowest vertex within. So what
+/// a strip needs, and what a range of strips needs, is one stretch of memory.
 ///
 /// Elements of one phase and colour share no vertex, in all strips together. Seam s counts as strip
 /// s, so the last strip's seam segments are empty. This order defines the result of a Gauss-Seidel

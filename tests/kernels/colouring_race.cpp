@@ -31,16 +31,21 @@ void run(bool is_right, bool per_colour) {
     // Right: one strip with two colours. Wrong: both springs in one colour, or, where a work-item
     // has a whole strip, in two strips.
     Segments segments{&begin, 0, 1, 1};
-    if (is_right) segments.colour_count = 2;
-    else if (!per_colour) segments.strip_count = 2;
+    if (is_right)
+        segments.colour_count = 2;
+    else if (!per_colour)
+        segments.strip_count = 2;
     begin[1] = is_right || !per_colour ? 1 : 2;
     begin[2] = 2;
 
-    const TaskBody body{"springs", 0,
+    const TaskBody body{"springs",
+                        0,
                         {launch(kernels::project_springs, segments, positions, ends, material,
                                 multipliers, 2, 1e4f, 1)}};
     Step step;
-    step.add(body, 0, 0, segments.strip_count, 0).updates(positions, 0, 3).updates(multipliers, 0, 2);
+    step.add(body, 0, 0, segments.strip_count, 0)
+        .updates(positions, 0, 3)
+        .updates(multipliers, 0, 2);
     step.seal();
     scheduler::Plan plan;
     plan.placements = {{0.0, 1.0, 0}};

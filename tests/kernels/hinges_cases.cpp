@@ -26,10 +26,10 @@ void hinges_case(KernelCase& c) {
         if (c.flavour == Flavour::kRandom) continue;
         for (std::size_t k = 0; k < 4; ++k) {
             float4& x = positions[static_cast<std::size_t>(vertices[h + k * rows])];
-            if (i % 4 == 0) x = {0.5f, 0.25f, 0.0f, x.w};                          // one point
-            if (i % 4 == 1) x = {static_cast<float>(k) * 0.5f, 0.0f, 0.0f, x.w};   // collinear
-            if (i % 4 == 2) weights[h + k * rows] = 0.0f;                          // no stiffness
-            if (i % 4 == 3) x.w = 0.0f;                                            // all held
+            if (i % 4 == 0) x = {0.5f, 0.25f, 0.0f, x.w};                         // one point
+            if (i % 4 == 1) x = {static_cast<float>(k) * 0.5f, 0.0f, 0.0f, x.w};  // collinear
+            if (i % 4 == 2) weights[h + k * rows] = 0.0f;                         // no stiffness
+            if (i % 4 == 3) x.w = 0.0f;                                           // all held
         }
     }
     c.launch = launch(kernels::project_hinges, c.segments, positions, corners, weights, multipliers,

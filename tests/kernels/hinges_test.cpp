@@ -33,8 +33,8 @@ struct OneHinge {
     }
     void project(int iterations = 1) {
         for (int i = 0; i < iterations; ++i) {
-            const Launch one = launch(kernels::project_hinges, Segments{}, positions, corners, weights,
-                                      multipliers, 1, kInverseH2, i == 0 ? 1 : 0);
+            const Launch one = launch(kernels::project_hinges, Segments{}, positions, corners,
+                                      weights, multipliers, 1, kInverseH2, i == 0 ? 1 : 0);
             run_on_host(one, one.kernel->scalar, 0, 1);
         }
     }
@@ -82,7 +82,8 @@ TEST(Hinges, PushAlongMinusTheGradientOfTheirEnergy) {
     hinge.project();
     for (std::size_t k = 0; k < 4; ++k) {
         const double scale = -static_cast<double>(folded[k].w) *
-                             static_cast<double>(hinge.weights[k]) / static_cast<double>(kInverseH2);
+                             static_cast<double>(hinge.weights[k]) /
+                             static_cast<double>(kInverseH2);
         const Vec3 moved = vec(hinge.positions[k]) - vec(folded[k]);
         EXPECT_NEAR(moved.z, scale * bend.z, 1e-7) << k;
         EXPECT_NEAR(moved.x, scale * bend.x, 1e-7) << k;

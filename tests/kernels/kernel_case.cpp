@@ -44,7 +44,9 @@ KernelCase::KernelCase(int item_count, Flavour kind, unsigned seed)
     segment_begin[kFirst + kStrips * kColours] = items;
 }
 
-bool add_case(std::string_view kernel, MakeCase make) { return makers().emplace(kernel, make).second; }
+bool add_case(std::string_view kernel, MakeCase make) {
+    return makers().emplace(kernel, make).second;
+}
 
 std::unique_ptr<KernelCase> make_case(std::string_view kernel, int items, Flavour flavour,
                                       unsigned seed) {

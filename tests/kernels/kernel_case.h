@@ -16,8 +16,8 @@ enum class Flavour {
     kDegenerate,  ///< zero lengths, held vertices, points on centres, edges and surfaces
 };
 
-/// One launch of a kernel over independent items, with data of its own. The same seed makes the same
-/// data.
+/// One launch of a kernel over independent items, with data of its own. The same seed makes the
+/// same data.
 struct KernelCase {
     KernelCase(int items, Flavour flavour, unsigned seed);
 

@@ -33,8 +33,8 @@ struct Bodies {
 
 void predict_case(KernelCase& c) {
     Bodies b(c);
-    c.launch = launch(kernels::predict, c.segments, b.positions, b.previous, b.velocities, b.gravity,
-                      kStep, kInstance);
+    c.launch = launch(kernels::predict, c.segments, b.positions, b.previous, b.velocities,
+                      b.gravity, kStep, kInstance);
 }
 
 void update_case(KernelCase& c) {
@@ -64,11 +64,12 @@ void move_pins_case(KernelCase& c) {
         row = c.random.point(c.flavour == Flavour::kRandom ? 1.0f : 0.0f);
         row.w = c.random.real(-1.0f, 1.0f);
     }
-    c.launch = launch(kernels::move_pins, c.segments, positions, vertices, rest, motions, kGroups, 1,
-                      kInstance);
+    c.launch = launch(kernels::move_pins, c.segments, positions, vertices, rest, motions, kGroups,
+                      1, kInstance);
 }
 
-const bool added = add_case("predict", predict_case) && add_case("update_velocities", update_case) &&
+const bool added = add_case("predict", predict_case) &&
+                   add_case("update_velocities", update_case) &&
                    add_case("update_damped_velocities", update_damped_case) &&
                    add_case("move_pins", move_pins_case);
 

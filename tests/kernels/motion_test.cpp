@@ -107,8 +107,8 @@ TEST(Motion, PinsAreCarriedByTheirGroupsMap) {
     rows[0] = {0.0f, 0.0f, 1.0f, 10.0f};
     rows[1] = {0.0f, 1.0f, 0.0f, 0.0f};
     rows[2] = {-1.0f, 0.0f, 0.0f, 0.5f};
-    const Launch move = launch(kernels::move_pins, Segments{}, positions, vertices, rest, motions, 2,
-                               1, kInstance);
+    const Launch move =
+        launch(kernels::move_pins, Segments{}, positions, vertices, rest, motions, 2, 1, kInstance);
     run_on_host(move, move.kernel->packed, 0, 2, 1);
     EXPECT_EQ(positions[3].x, 13.0f);
     EXPECT_EQ(positions[3].y, 2.0f);

@@ -1,4 +1,5 @@
-// Every shape has kernels of the same signature, so a new shape is tested without another line here.
+// Every shape has kernels of the same signature, so a new shape is tested without another line
+// here.
 
 #include "kernels/obstacles/contact.h"
 
@@ -36,7 +37,8 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
     auto& previous = c.add<float4>("previous", c.items);
     auto& obstacles = c.add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
     place(c, obstacles);
-    const float special[] = {0.0f, 0.25f, -0.25f, 0.5f, -0.5f, 1.0f};  // centres, faces, edges, corners
+    const float special[] = {0.0f, 0.25f, -0.25f,
+                             0.5f, -0.5f, 1.0f};  // centres, faces, edges, corners
     for (std::size_t v = 0; v < positions.count(); ++v) {
         positions[v] = c.random.point(0.8f);
         if (c.flavour == Flavour::kDegenerate) {

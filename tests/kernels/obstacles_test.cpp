@@ -83,11 +83,11 @@ TEST(Obstacles, PlanePushesUpwards) {
 TEST(Obstacles, CapsuleIsARoundedSegment) {
     const auto& capsule = kernels::push_out_of_capsule;
     const float4 d{0.5f, 1.0f, 0, 0};
-    expect_at(pushed(capsule, {0.25, 0.9, 0}, d), {0.625, 0.9, 0});        // beside the segment
-    expect_at(pushed(capsule, {0, 1.25, 0}, d), {0, 1.625, 0});            // above its end
-    expect_at(pushed(capsule, {0.3, -1.4, 0}, d), {0.375, -1.5, 0});       // below, sideways
-    expect_at(pushed(capsule, {0, 0.5, 0}, d), {0, 1.125, 0});             // on the axis: upwards
-    expect_at(pushed(capsule, {0, 1.7, 0}, d), {0, 1.7f, 0}, 0.0);         // outside
+    expect_at(pushed(capsule, {0.25, 0.9, 0}, d), {0.625, 0.9, 0});   // beside the segment
+    expect_at(pushed(capsule, {0, 1.25, 0}, d), {0, 1.625, 0});       // above its end
+    expect_at(pushed(capsule, {0.3, -1.4, 0}, d), {0.375, -1.5, 0});  // below, sideways
+    expect_at(pushed(capsule, {0, 0.5, 0}, d), {0, 1.125, 0});        // on the axis: upwards
+    expect_at(pushed(capsule, {0, 1.7, 0}, d), {0, 1.7f, 0}, 0.0);    // outside
 }
 
 TEST(Obstacles, BoxPushesThroughItsNearestFaceAndRoundsItsEdges) {
@@ -96,8 +96,8 @@ TEST(Obstacles, BoxPushesThroughItsNearestFaceAndRoundsItsEdges) {
     expect_at(pushed(box, {0.9, 0.1, 0}, d), {1.125, 0.1, 0});
     expect_at(pushed(box, {0.1, -0.4, 0}, d), {0.1, -0.625, 0});
     expect_at(pushed(box, {0, 0, -0.7}, d), {0, 0, -0.875});
-    expect_at(pushed(box, {0, 0, 0}, d), {0, 0.625, 0});     // the nearest face is y's
-    expect_at(pushed(box, {0, 0.5, 0}, d), {0, 0.625, 0});   // on a face
+    expect_at(pushed(box, {0, 0, 0}, d), {0, 0.625, 0});              // the nearest face is y's
+    expect_at(pushed(box, {0, 0.5, 0}, d), {0, 0.625, 0});            // on a face
     expect_at(pushed(box, {1.0, 0.5, 0.75}, d), {1.125, 0.5, 0.75});  // on a corner: one face
     expect_at(pushed(box, {1.0 + 0.045, 0.5 + 0.06, 0}, d), {1.075, 0.6, 0});  // outside an edge
     expect_at(pushed(box, {1.5, 0.75, 0}, d), {1.5, 0.75, 0}, 0.0);

@@ -28,7 +28,8 @@ protected:
 std::vector<std::unique_ptr<KernelCase>> all_cases(Flavour flavour) {
     std::vector<std::unique_ptr<KernelCase>> cases;
     for (const kernels::KernelInfo* kernel : kernels::all_kernels()) {
-        if (auto made = make_case(kernel->name, kItems, flavour, 7)) cases.push_back(std::move(made));
+        if (auto made = make_case(kernel->name, kItems, flavour, 7))
+            cases.push_back(std::move(made));
     }
     return cases;
 }
@@ -57,8 +58,8 @@ std::string name_of_style(const testing::TestParamInfo<Style>& info) {
 
 INSTANTIATE_TEST_SUITE_P(OneLane, OpenClKernels, testing::Values(Style{1, true}, Style{1, false}),
                          name_of_style);
-INSTANTIATE_TEST_SUITE_P(EightLanes, OpenClKernels, testing::Values(Style{8, true}, Style{8, false}),
-                         name_of_style);
+INSTANTIATE_TEST_SUITE_P(EightLanes, OpenClKernels,
+                         testing::Values(Style{8, true}, Style{8, false}), name_of_style);
 
 }  // namespace
 }  // namespace weft::test

@@ -15,7 +15,8 @@ public:
     explicit Random(unsigned seed) : engine_(seed) {}
 
     float real(float low, float high) {
-        return low + (high - low) * static_cast<float>(engine_() >> 8) / static_cast<float>(1U << 24);
+        return low +
+               (high - low) * static_cast<float>(engine_() >> 8) / static_cast<float>(1U << 24);
     }
     /// In [low, high].
     int integer(int low, int high) {

@@ -19,9 +19,12 @@ void run_on_host(const Launch& launch, kernels::RangeFunction function, int begi
     std::vector<const void*> addresses;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const Argument& argument = launch.arguments[i];
-        if (argument.buffer != nullptr) values[i].pointer = argument.buffer->host();
-        else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat) values[i].real = argument.real;
-        else values[i].integer = argument.is_instance ? instance : argument.integer;
+        if (argument.buffer != nullptr)
+            values[i].pointer = argument.buffer->host();
+        else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat)
+            values[i].real = argument.real;
+        else
+            values[i].integer = argument.is_instance ? instance : argument.integer;
         addresses.push_back(&values[i]);
     }
     function(begin, end, addresses.data());

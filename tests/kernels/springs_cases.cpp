@@ -25,10 +25,11 @@ void springs_case(KernelCase& c, int fresh) {
         multipliers[s] = c.random.real(-1e-3f, 1e-3f);
         if (c.flavour == Flavour::kRandom) continue;
         float4& x0 = positions[static_cast<std::size_t>(vertices[s])];
-        float4& x1 = positions[static_cast<std::size_t>(vertices[s + static_cast<std::size_t>(count)])];
-        if (i % 5 < 3) x1 = x0;                     // no length
-        if (i % 5 == 0) material[s] = 0.0f;         // and none at rest
-        if (i % 5 == 1) x0.w = x1.w = 0.0f;         // both ends held
+        float4& x1 =
+            positions[static_cast<std::size_t>(vertices[s + static_cast<std::size_t>(count)])];
+        if (i % 5 < 3) x1 = x0;                                  // no length
+        if (i % 5 == 0) material[s] = 0.0f;                      // and none at rest
+        if (i % 5 == 1) x0.w = x1.w = 0.0f;                      // both ends held
         if (i % 5 == 3) x1 = {x0.x + 1e-23f, x0.y, x0.z, x1.w};  // a length whose square is 0
         if (i % 5 == 4) x1.x = x0.x + 1e18f;
     }

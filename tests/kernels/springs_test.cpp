@@ -32,8 +32,8 @@ struct OneSpring {
     }
     void project(int iterations = 1) {
         for (int i = 0; i < iterations; ++i) {
-            const Launch one = launch(kernels::project_springs, Segments{}, positions, ends, material,
-                                      multipliers, 1, kInverseH2, i == 0 ? 1 : 0);
+            const Launch one = launch(kernels::project_springs, Segments{}, positions, ends,
+                                      material, multipliers, 1, kInverseH2, i == 0 ? 1 : 0);
             run_on_host(one, one.kernel->scalar, 0, 1);
         }
     }
@@ -50,8 +50,8 @@ TEST(Springs, StiffOneReturnsToItsRestLengthByMasses) {
 }
 
 TEST(Springs, OneIterationSolvesTheImplicitStepOfOneSpring) {
-    // Minimum of |x - x~|^2 m / (2 h^2) + k/2 (l - rest)^2: the error shrinks by a / (w + a), where a
-    // = compliance / h^2.
+    // Minimum of |x - x~|^2 m / (2 h^2) + k/2 (l - rest)^2: the error shrinks by a / (w + a), where
+    // a = compliance / h^2.
     const float compliance = 2e-4f;
     const double a = double{compliance} * double{kInverseH2};
     for (const int iterations : {1, 20}) {  // the later ones have nothing to add

@@ -51,12 +51,14 @@ Devices four_devices() {
 
 const Machine kMachines[] = {
     {"OneThread", false, [] { return open_devices("cpu/1"); }},
-    {"TwoThreads", false, [] {
+    {"TwoThreads", false,
+     [] {
          Devices devices;
          devices.push_back(make_cpu_device(2, {}));
          return devices;
      }},
-    {"ThreeCpuDevices", false, [] {
+    {"ThreeCpuDevices", false,
+     [] {
          Devices devices;
          for (int i = 0; i < 3; ++i) devices.push_back(make_cpu_device(1, {}));
          return devices;
@@ -110,7 +112,8 @@ TEST_P(ExecutorOn, RandomPlansOfRandomGraphsEndAsTheSerialRun) {
         }
         for (BufferStorage* buffer : tasks.buffers()) executor.fetch(*buffer);
         const auto state = tasks.state();
-        ASSERT_TRUE(std::all_of(state.begin(), state.end(), [](float v) { return std::isfinite(v); }));
+        ASSERT_TRUE(
+            std::all_of(state.begin(), state.end(), [](float v) { return std::isfinite(v); }));
         ASSERT_EQ(state, reference.state()) << "seed " << seed;
     }
 }

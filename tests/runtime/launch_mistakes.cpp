@@ -15,23 +15,23 @@ weft::Launch bound(const weft::Segments& segments, weft::Buffer<weft::float4>& p
     using weft::kernels::move_pins;
 #if MISTAKE == 0
     return launch(move_pins, segments, positions, vertices, rest, motions, 2, 1, kInstance);
-#elif MISTAKE == 1  // an argument is missing
+#elif MISTAKE == 1   // an argument is missing
     return launch(move_pins, segments, positions, vertices, rest, motions, 2, kInstance);
-#elif MISTAKE == 2  // one too many
+#elif MISTAKE == 2   // one too many
     return launch(move_pins, segments, positions, vertices, rest, motions, 2, 1, kInstance, 1);
-#elif MISTAKE == 3  // a float buffer where indices belong
+#elif MISTAKE == 3   // a float buffer where indices belong
     return launch(move_pins, segments, positions, reals, rest, motions, 2, 1, kInstance);
-#elif MISTAKE == 4  // a number where a buffer belongs
+#elif MISTAKE == 4   // a number where a buffer belongs
     return launch(move_pins, segments, positions, 7, rest, motions, 2, 1, kInstance);
-#elif MISTAKE == 5  // a buffer where a number belongs
+#elif MISTAKE == 5   // a buffer where a number belongs
     return launch(move_pins, segments, positions, vertices, rest, motions, reals, 1, kInstance);
-#elif MISTAKE == 6  // a float for an int
+#elif MISTAKE == 6   // a float for an int
     return launch(move_pins, segments, positions, vertices, rest, motions, 2.0f, 1, kInstance);
-#elif MISTAKE == 7  // a double for an int
+#elif MISTAKE == 7   // a double for an int
     return launch(move_pins, segments, positions, vertices, rest, motions, 2.0, 1, kInstance);
-#elif MISTAKE == 8  // the instance where a buffer belongs
+#elif MISTAKE == 8   // the instance where a buffer belongs
     return launch(move_pins, segments, positions, kInstance, rest, motions, 2, 1, kInstance);
-#elif MISTAKE == 9  // a buffer of a type that kernels do not know
+#elif MISTAKE == 9   // a buffer of a type that kernels do not know
     weft::Buffer<double> doubles("doubles", 1);
     return launch(move_pins, segments, positions, doubles, rest, motions, 2, 1, kInstance);
 #elif MISTAKE == 10  // data that must not change, where the kernel writes

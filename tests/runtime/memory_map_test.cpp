@@ -74,14 +74,24 @@ private:
         const int memory = pick(kMemories);
         const Access access{&buffers_[buffer], nullptr, begin, end, true};
         switch (pick(10)) {
-            case 0: map_.forget(buffers_[buffer]); reference_.forget(buffer); break;
-            case 1: map_.settle(); reference_.settle(); break;
-            case 2: case 3: case 4: case 5: {
+            case 0:
+                map_.forget(buffers_[buffer]);
+                reference_.forget(buffer);
+                break;
+            case 1:
+                map_.settle();
+                reference_.settle();
+                break;
+            case 2:
+            case 3:
+            case 4:
+            case 5: {
                 map_.written(access, memory, &done_[memory]);
                 reference_.written(buffer, begin, end, memory, &done_[memory]);
                 break;
             }
-            default: bring(access, buffer, memory);
+            default:
+                bring(access, buffer, memory);
         }
         check(access, buffer, pick(kMemories));
         check_host(buffer);
@@ -91,7 +101,8 @@ private:
     void bring(const Access& access, int buffer, int memory) {
         for (const auto& missing : map_.missing(access, memory)) {
             map_.arrived(access, missing.interval, memory, &arrival_);
-            reference_.arrived(buffer, missing.interval.begin, missing.interval.end, memory, &arrival_);
+            reference_.arrived(buffer, missing.interval.begin, missing.interval.end, memory,
+                               &arrival_);
         }
         ASSERT_TRUE(map_.missing(access, memory).empty());
     }

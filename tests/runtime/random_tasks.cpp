@@ -40,7 +40,8 @@ RandomTasks::RandomTasks()
       multipliers_("multipliers", ends_.count() / 2) {
     std::copy(std::begin(kBegin), std::end(kBegin), strip_begin_.data());
     for (int i = 0; i < kPoints; ++i) {
-        points_.push_back(std::make_unique<Buffer<float4>>("points" + std::to_string(i), kVertices));
+        points_.push_back(
+            std::make_unique<Buffer<float4>>("points" + std::to_string(i), kVertices));
     }
     // A chain through each strip's vertices, in two colours.
     std::size_t next = 0;
@@ -72,7 +73,8 @@ void RandomTasks::add_bodies() {
         Body& predict = body();
         predict.updated = {x, y};
         predict.read = {z};
-        predict.body.launches = {launch(kernels::predict, strips_, a, b, c, gravity_, kH, kInstance)};
+        predict.body.launches = {
+            launch(kernels::predict, strips_, a, b, c, gravity_, kH, kInstance)};
         Body& update = body();
         update.updated = {z};
         update.read = {x, y};
@@ -82,8 +84,9 @@ void RandomTasks::add_bodies() {
     Body& springs = body();
     springs.updated = {0};
     springs.has_multipliers = true;
-    springs.body.launches = {launch(kernels::project_springs, springs_, *points_[0], ends_, material_,
-                                    multipliers_, static_cast<int>(multipliers_.count()), 100.0f, 0)};
+    springs.body.launches = {launch(kernels::project_springs, springs_, *points_[0], ends_,
+                                    material_, multipliers_, static_cast<int>(multipliers_.count()),
+                                    100.0f, 0)};
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         bodies_[b]->body.name = "body " + std::to_string(b);
         bodies_[b]->body.kind = static_cast<int>(b);

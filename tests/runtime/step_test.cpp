@@ -35,10 +35,10 @@ Pairs pairs(const std::vector<Dependency>& dependencies) {
 TEST(Step, ReadAfterWriteWriteAfterReadWriteAfterWrite) {
     Accesses a;
     a.add().updates(*a.buffers[0], 0, 10);
-    a.add().reads(*a.buffers[0], 5, 6);     // after write
-    a.add().updates(*a.buffers[0], 5, 6);   // after read, and after write
-    a.add().reads(*a.buffers[0], 0, 5);     // of task 0 alone
-    a.add().reads(*a.buffers[1], 0, 100);   // of nobody
+    a.add().reads(*a.buffers[0], 5, 6);    // after write
+    a.add().updates(*a.buffers[0], 5, 6);  // after read, and after write
+    a.add().reads(*a.buffers[0], 0, 5);    // of task 0 alone
+    a.add().reads(*a.buffers[1], 0, 100);  // of nobody
     a.step.seal();
     EXPECT_EQ(pairs(a.step.dependencies()), (Pairs{{0, 1}, {1, 2}, {0, 3}}));
     // The next instance's first task overwrites what the last ones read and wrote.
@@ -101,7 +101,8 @@ std::vector<std::vector<bool>> required_order(const std::vector<Task>& tasks) {
                                           std::vector<bool>(static_cast<std::size_t>(2 * count)));
     for (int j = 0; j < 2 * count; ++j) {
         for (int i = 0; i < j; ++i) {
-            if (conflict(i, j)) before[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = true;
+            if (conflict(i, j))
+                before[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = true;
         }
     }
     return before;
@@ -144,8 +145,10 @@ TEST(Step, DependenciesMakeExactlyTheRequiredOrderAndNoneIsSuperfluous) {
                 Buffer<float>& buffer = *a.buffers[random() % a.buffers.size()];
                 const int begin = static_cast<int>(random() % 20);
                 const int end = begin + static_cast<int>(random() % 6);  // sometimes empty
-                if (random() % 2 == 0) task.reads(buffer, begin, end);
-                else task.updates(buffer, begin, end);
+                if (random() % 2 == 0)
+                    task.reads(buffer, begin, end);
+                else
+                    task.updates(buffer, begin, end);
             }
         }
         a.step.seal();

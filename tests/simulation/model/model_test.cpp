@@ -34,8 +34,8 @@ double cylinder_energy(int resolution, double radius) {
     std::vector<float4> bent;
     for (const float4& flat : model.positions->span()) {
         const double angle = static_cast<double>(flat.x) / radius;
-        bent.push_back(to_float4({radius * std::sin(angle), radius * std::cos(angle),
-                                  static_cast<double>(flat.z)}));
+        bent.push_back(to_float4(
+            {radius * std::sin(angle), radius * std::cos(angle), static_cast<double>(flat.z)}));
     }
     return model.hinges->energy(bent) * radius * radius;
 }

@@ -29,8 +29,8 @@ TEST(Division, CutsAreWhereRegionsMeet) {
 }
 
 TEST(Division, ProportionalIsWithinAStripOfTheShares) {
-    const std::vector<std::vector<double>> speeds{{1.0}, {1.0, 1.0}, {1.0, 3.0}, {5.0, 0.1},
-                                                  {0.01, 100.0, 1.0}, {2.0, 3.0, 4.0, 5.0}};
+    const std::vector<std::vector<double>> speeds{
+        {1.0}, {1.0, 1.0}, {1.0, 3.0}, {5.0, 0.1}, {0.01, 100.0, 1.0}, {2.0, 3.0, 4.0, 5.0}};
     for (const auto& speed : speeds) {
         const double all = std::accumulate(speed.begin(), speed.end(), 0.0);
         for (int strips = 1; strips <= 40; ++strips) {

@@ -16,14 +16,14 @@ public:
     };
     VirtualMachine(std::vector<Speed> speeds, double latency);
 
-    /// Executes a plan as an executor would: every device its tasks in the plan's order, each as soon
-    /// as its data are there.
+    /// Executes a plan as an executor would: every device its tasks in the plan's order, each as
+    /// soon as its data are there.
     RunTimes run(const FramePlan& plan, int instances);
 
     std::vector<Device*> devices() const;
 
     std::vector<Speed> speeds;
-    double latency;        ///< [s] between two devices
+    double latency;  ///< [s] between two devices
 
 private:
     std::vector<std::unique_ptr<Device>> devices_;

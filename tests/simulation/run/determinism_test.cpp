@@ -1,4 +1,5 @@
-// The same scene gives the same bits on one core, on any OpenCL device, and on every mixture of them.
+// The same scene gives the same bits on one core, on any OpenCL device, and on every mixture of
+// them.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,8 @@ std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> o
     for (const MemoryModel memory : opencl) {
         DeviceOptions options;
         options.memory = memory;
-        for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
+        for (auto& device : open_opencl_device(0, {}, options))
+            devices.push_back(std::move(device));
     }
     return devices;
 }

@@ -84,10 +84,12 @@ motion.keyframes = [{ time = 0.0 }, { time = 0.02 }, { time = 0.03, translate = 
 )";
     const Outcome fast = run_to_the_end(parse_scene(pulled, "test.toml"), "cpu/1");
     EXPECT_EQ(fast.frames_done, 2);
-    expect_said(fast, {"frame 2", "substep", "vertex ", "of cloth 'sheet'", "guard.max_speed", "1000"});
+    expect_said(fast,
+                {"frame 2", "substep", "vertex ", "of cloth 'sheet'", "guard.max_speed", "1000"});
 
     const Outcome stretched = run_to_the_end(
-        parse_scene(pulled + "\n[guard]\nmax_speed = 1e20\nmax_strain = 0.5\n", "test.toml"), "cpu/1");
+        parse_scene(pulled + "\n[guard]\nmax_speed = 1e20\nmax_strain = 0.5\n", "test.toml"),
+        "cpu/1");
     expect_said(stretched, {"frame 2", "substep", "vertex ", "guard.max_strain", "0.5"});
 }
 

@@ -66,14 +66,17 @@ TEST(Energies, OfARunAreThoseOfItsTriangles) {
         std::vector<double> masses(x.size() / 3, 0.0);
         for (std::size_t t = 0; t < model.triangles.size(); ++t) {
             const auto& c = model.triangles[t];
-            const double density = scene.cloths[static_cast<std::size_t>(model.triangle_body[t])].density;
+            const double density =
+                scene.cloths[static_cast<std::size_t>(model.triangle_body[t])].density;
             const double area = 0.5 * length(cross(at(rest, c[1]) - at(rest, c[0]),
                                                    at(rest, c[2]) - at(rest, c[0])));
-            for (const int corner : c) masses[static_cast<std::size_t>(corner)] += density * area / 3.0;
+            for (const int corner : c)
+                masses[static_cast<std::size_t>(corner)] += density * area / 3.0;
         }
         const auto cloth_of = [&](int vertex) -> const Cloth& {
             std::size_t body = 0;
-            while (vertex >= model.bodies[body].first_vertex + model.bodies[body].vertex_count) ++body;
+            while (vertex >= model.bodies[body].first_vertex + model.bodies[body].vertex_count)
+                ++body;
             return scene.cloths[body];
         };
         // Pins: the grids' corners (0 and 8 of the sheet), and two vertices of the band.
@@ -94,7 +97,8 @@ TEST(Energies, OfARunAreThoseOfItsTriangles) {
             stretch += 0.5 * cloth_of(a).stretch.stiffness * longer * longer;
             if (opposite.size() != 2 || !cloth_of(a).bend) continue;
             const auto corners = [&](const std::vector<float>& p) {
-                return std::array<Vec3, 4>{at(p, a), at(p, b), at(p, opposite[0]), at(p, opposite[1])};
+                return std::array<Vec3, 4>{at(p, a), at(p, b), at(p, opposite[0]),
+                                           at(p, opposite[1])};
             };
             bend += cloth_of(a).bend->stiffness * bend_energy(corners(rest), corners(x));
         }

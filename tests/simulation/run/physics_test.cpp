@@ -31,7 +31,9 @@ Vec3 at(const std::vector<float>& values, int vertex) {
     const float* v = &values[3 * static_cast<std::size_t>(vertex)];
     return {v[0], v[1], v[2]};
 }
-std::vector<float> positions(const ManualRun& run) { return run.in_scene_order(*run.model->positions); }
+std::vector<float> positions(const ManualRun& run) {
+    return run.in_scene_order(*run.model->positions);
+}
 std::vector<float> velocities(const ManualRun& run) {
     return run.in_scene_order(*run.model->velocities);
 }

@@ -85,7 +85,8 @@ void ReferenceXpbd::project_hinge(int hinge) {
     Vec3 bend;
     double mobility = 0.0;
     const auto weight = [&](std::size_t k) {
-        return static_cast<double>(model_.hinges->weights[k * count + static_cast<std::size_t>(hinge)]);
+        return static_cast<double>(
+            model_.hinges->weights[k * count + static_cast<std::size_t>(hinge)]);
     };
     for (std::size_t k = 0; k < 4; ++k) {
         const auto i = static_cast<std::size_t>(corners[k]);

@@ -103,7 +103,8 @@ TEST(Xpbd, HasNoBodyLaunchOrBufferForWhatASceneDoesNotName) {
     for (const TaskBody* body : plain.solver->bodies()) {
         for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
     }
-    EXPECT_EQ(kernels, (std::set<std::string_view>{"predict", "project_springs", "update_velocities"}));
+    EXPECT_EQ(kernels,
+              (std::set<std::string_view>{"predict", "project_springs", "update_velocities"}));
     for (const BufferStorage* buffer : plain.solver->buffers()) {
         EXPECT_EQ(buffer->name().find("hinge"), std::string::npos);
     }
@@ -112,9 +113,9 @@ TEST(Xpbd, HasNoBodyLaunchOrBufferForWhatASceneDoesNotName) {
     for (const TaskBody* body : all.solver->bodies()) {
         for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
     }
-    for (const char* kernel : {"project_hinges", "move_pins", "update_damped_velocities",
-                               "rub_on_sphere", "rub_on_plane", "push_out_of_capsule",
-                               "push_out_of_box"}) {
+    for (const char* kernel :
+         {"project_hinges", "move_pins", "update_damped_velocities", "rub_on_sphere",
+          "rub_on_plane", "push_out_of_capsule", "push_out_of_box"}) {
         EXPECT_TRUE(kernels.contains(kernel)) << kernel;
     }
     EXPECT_FALSE(kernels.contains("push_out_of_sphere"));

@@ -125,9 +125,7 @@ std::vector<int> component_of(const TopologyMesh& mesh) {
     return component;
 }
 
-int phase_of(const std::set<int>& strips) {
-    return strips.size() == 2 ? kSeamPhase : kInnerPhase;
-}
+int phase_of(const std::set<int>& strips) { return strips.size() == 2 ? kSeamPhase : kInnerPhase; }
 
 void expect_segment(const Stencils& kind, const std::vector<int>& strip_of,
                     const ElementLayout& layout, int phase, int colour, int strip) {
