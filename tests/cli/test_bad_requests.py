@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import resource
 
 import pytest
 from weft_program import SHEET, expect_error, weft
@@ -141,19 +140,15 @@ def test_read_only_output_folder(folder):
     expect_error(run(folder, "--out", "locked"), 2, "--out locked", "cannot be written")
 
 
-def limit_file_size(size):
-    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-
-
 @pytest.mark.parametrize("left_out, name", [("--no-trace", "frames.vtkhdf"),
                                             ("--no-geometry", "trace.h5")])
 def test_full_disk(folder, left_out, name):
     """A limit on file sizes stands for it: the same path through the program, and no root needed."""
     arguments = ["--frames", "500", "--set", "scene.size=4000", "--iterations", "20", left_out]
-    result = run(folder, *arguments, preexec_fn=limit_file_size(600_000))
+    result = run(folder, *arguments, launcher=["bash", "-c", 'ulimit -f 600; exec "$@"', "bash"])
     expect_error(result, 1, f"out/sheet/{name}: cannot write")
     assert not (folder / "out/sheet/summary.json").exists()
-    assert (folder / "out/sheet" / name).stat().st_size <= 600_000
+    assert (folder / "out/sheet" / name).stat().st_size <= 600 * 1024
 
 
 @pytest.mark.skipif(not pathlib.Path("/dev/full").exists(), reason="needs /dev/full")

@@ -35,9 +35,9 @@ stretch = { stiffness = 1.0e4 }
 LONG = SHEET.replace("frames = 3", "frames = 3000").replace("substeps = 2", "substeps = 200")
 
 
-def weft(*arguments, cwd=None, stdout=subprocess.PIPE, **options):
-    """Runs weft to its end; text of both streams is captured."""
-    command = [WEFT, *map(str, arguments)]
+def weft(*arguments, cwd=None, stdout=subprocess.PIPE, launcher=(), **options):
+    """Runs weft to its end, by way of a launcher if given; text of both streams is captured."""
+    command = [*launcher, WEFT, *map(str, arguments)]
     return subprocess.run(command, cwd=cwd, stdout=stdout, stderr=subprocess.PIPE, text=True,
                           timeout=120, **options)
 
