@@ -1,0 +1,75 @@
+#ifndef WEFT_KERNELS_MATRIX_H
+#define WEFT_KERNELS_MATRIX_H
+
+// Symmetric 3x3 matrices on `real`: Hessian blocks of one vertex.
+
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+WEFT_KERNELS_BEGIN
+
+typedef struct {
+    real xx, xy, xz, yy, yz, zz;
+} sym3;
+
+WEFT_INLINE sym3 make_sym(real xx, real xy, real xz, real yy, real yz, real zz) {
+    sym3 a = {xx, xy, xz, yy, yz, zz};
+    return a;
+}
+
+/// s I
+WEFT_INLINE sym3 diagonal_sym(real s) {
+    const real zero = splat(0.0f);
+    return make_sym(s, zero, zero, s, zero, s);
+}
+
+/// s v v^T
+WEFT_INLINE sym3 outer_sym(real3 v, real s) {
+    const real3 sv = scale(v, s);
+    return make_sym(sv.x * v.x, sv.x * v.y, sv.x * v.z, sv.y * v.y, sv.y * v.z, sv.z * v.z);
+}
+
+WEFT_INLINE sym3 add_sym(sym3 a, sym3 b) {
+    return make_sym(a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yy + b.yy, a.yz + b.yz, a.zz + b.zz);
+}
+
+WEFT_INLINE sym3 scale_sym(sym3 a, real s) {
+    return make_sym(a.xx * s, a.xy * s, a.xz * s, a.yy * s, a.yz * s, a.zz * s);
+}
+
+/// a + s I
+WEFT_INLINE sym3 add_diagonal(sym3 a, real s) {
+    return make_sym(a.xx + s, a.xy, a.xz, a.yy + s, a.yz, a.zz + s);
+}
+
+WEFT_INLINE real3 multiply_sym(sym3 a, real3 v) {
+    return make3(a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+                 a.xz * v.x + a.yz * v.y + a.zz * v.z);
+}
+
+WEFT_INLINE real trace_sym(sym3 a) { return a.xx + a.yy + a.zz; }
+
+/// Solves a x = b for a positive semi-definite `a`, by L D L^T. A pivot that rounding made tiny or
+/// negative is lifted to 2e-7 of the trace: what counts as singular has no unit, so light
+/// materials and stiff ones are solved alike, and x^T b >= 0 holds always.
+WEFT_INLINE real3 solve_sym(sym3 a, real3 b) {
+    const real least = larger(trace_sym(a) * splat(2e-7f), splat(1e-30f));
+    const real inverse_x = splat(1.0f) / larger(a.xx, least);
+    const real l_yx = a.xy * inverse_x;
+    const real l_zx = a.xz * inverse_x;
+    const real inverse_y = splat(1.0f) / larger(a.yy - l_yx * a.xy, least);
+    const real yz = a.yz - l_yx * a.xz;
+    const real l_zy = yz * inverse_y;
+    const real inverse_z = splat(1.0f) / larger(a.zz - l_zx * a.xz - l_zy * yz, least);
+
+    const real y = b.y - l_yx * b.x;
+    const real z = b.z - l_zx * b.x - l_zy * y;
+    const real solution_z = z * inverse_z;
+    const real solution_y = y * inverse_y - l_zy * solution_z;
+    const real solution_x = b.x * inverse_x - l_yx * solution_y - l_zx * solution_z;
+    return make3(solution_x, solution_y, solution_z);
+}
+
+WEFT_KERNELS_END
+
+#endif
