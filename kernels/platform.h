@@ -8,7 +8,8 @@
 //   scalar C++, one item at a time                      platform/scalar.h
 //   packed C++, 8 items at a time                       platform/packed.h
 // and gives the same bits in all of them: only + - * / square_root() and comparisons, never
-// contracted, always correctly rounded.
+// contracted, always correctly rounded. Helpers without loads and stores (element energies) compile
+// with real = double, too, for the reference solver: platform/in_double.h.
 //
 //   real, integer      one value per item: a float, an int, or 8 of them
 //   real3, real4       structs of real; vector.h has their arithmetic
@@ -30,6 +31,8 @@
 
 #if defined(__OPENCL_C_VERSION__)  // by the compiler; __OPENCL_VERSION__ only by a device
 #include "kernels/platform/opencl.h"
+#elif defined(WEFT_IN_DOUBLE)
+#include "kernels/platform/in_double.h"
 #elif defined(WEFT_PACKED_TARGET)
 #include "kernels/platform/packed.h"
 #else

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+
+#include "kernels/platform/types.h"
+
+// The arithmetic of the language in double precision: for the reference solver and for tests by
+// finite differences, which so use the very definitions that the kernels use. A source asks for it
+// by defining WEFT_IN_DOUBLE before its first kernel header. There are values only, neither items
+// nor memory: headers of element functions (kernels/energies/) compile, those of kernels do not.
+#define WEFT_TARGET in_double
+
+WEFT_KERNELS_BEGIN
+
+using real = double;
+using integer = int;
+
+struct real4 {
+    real x, y, z, w;
+};
+
+WEFT_INLINE real splat(float value) { return static_cast<real>(value); }
+WEFT_INLINE real square_root(real value) { return std::sqrt(value); }
+
+WEFT_KERNELS_END
