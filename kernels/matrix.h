@@ -1,7 +1,8 @@
 #ifndef WEFT_KERNELS_MATRIX_H
 #define WEFT_KERNELS_MATRIX_H
 
-// Symmetric 3x3 matrices on `real`: Hessian blocks of one vertex.
+// 3x3 matrices on `real`: symmetric ones (sym3) are Hessian blocks of one vertex; general ones
+// (mat3) are deformation gradients and Hessian blocks of two vertices.
 
 #include "kernels/platform.h"
 #include "kernels/vector.h"
@@ -68,6 +69,48 @@ WEFT_INLINE real3 solve_sym(sym3 a, real3 b) {
     const real solution_y = y * inverse_y - l_zy * solution_z;
     const real solution_x = b.x * inverse_x - l_yx * solution_y - l_zx * solution_z;
     return make3(solution_x, solution_y, solution_z);
+}
+
+/// By columns.
+typedef struct {
+    real3 x, y, z;
+} mat3;
+
+WEFT_INLINE mat3 make_mat(real3 x, real3 y, real3 z) {
+    mat3 a = {x, y, z};
+    return a;
+}
+
+WEFT_INLINE mat3 add_mat(mat3 a, mat3 b) {
+    return make_mat(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z));
+}
+
+/// a + s I
+WEFT_INLINE mat3 add_diagonal_mat(mat3 a, real s) {
+    a.x.x = a.x.x + s;
+    a.y.y = a.y.y + s;
+    a.z.z = a.z.z + s;
+    return a;
+}
+
+/// a b^T
+WEFT_INLINE mat3 outer_mat(real3 a, real3 b) {
+    return make_mat(scale(a, b.x), scale(a, b.y), scale(a, b.z));
+}
+
+/// [w]_x, by which a vector v becomes w x v
+WEFT_INLINE mat3 cross_mat(real3 w) {
+    const real zero = splat(0.0f);
+    return make_mat(make3(zero, w.z, -w.y), make3(-w.z, zero, w.x), make3(w.y, -w.x, zero));
+}
+
+/// The derivative of the determinant; det(a) a^-T where there is an inverse.
+WEFT_INLINE mat3 cofactor_mat(mat3 a) {
+    return make_mat(cross3(a.y, a.z), cross3(a.z, a.x), cross3(a.x, a.y));
+}
+
+WEFT_INLINE real3 multiply_mat(mat3 a, real3 v) {
+    return add_scaled(add_scaled(scale(a.x, v.x), a.y, v.y), a.z, v.z);
 }
 
 WEFT_KERNELS_END

@@ -34,6 +34,9 @@ WEFT_INLINE real3 add_scaled(real3 a, real3 b, real s) {
 }
 
 WEFT_INLINE real dot3(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+WEFT_INLINE real3 cross3(real3 a, real3 b) {
+    return make3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 WEFT_INLINE real length3(real3 a) { return square_root(dot3(a, a)); }
 
 WEFT_INLINE real smaller(real a, real b) { return a < b ? a : b; }

@@ -12,13 +12,14 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The largest distance of a corner from the first: what a step is measured by.
+/// The largest distance of a corner from the first, 1 where all are in one point: what a step is
+/// measured by.
 double size_of(const VectorXd& x) {
     double size = 0.0;
     for (int k = 3; k < x.size(); k += 3) {
         size = std::max(size, (x.segment<3>(k) - x.head<3>()).norm());
     }
-    return size;
+    return size > 0.0 ? size : 1.0;
 }
 
 /// d f / d x_i for any f that can be added and scaled.

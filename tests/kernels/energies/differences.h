@@ -49,6 +49,11 @@ inline kernels::real3 corner(const Eigen::VectorXd& x, int k) {
     return kernels::make3(x(3 * k), x(3 * k + 1), x(3 * k + 2));
 }
 inline Eigen::Vector3d to_eigen(kernels::real3 v) { return {v.x, v.y, v.z}; }
+inline Eigen::Matrix3d to_eigen(kernels::mat3 a) {
+    Eigen::Matrix3d m;
+    m << to_eigen(a.x), to_eigen(a.y), to_eigen(a.z);
+    return m;
+}
 inline Eigen::Matrix3d to_eigen(kernels::sym3 a) {
     return (Eigen::Matrix3d() << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz).finished();
 }
