@@ -40,10 +40,17 @@ struct Segments {
 struct Instance {};
 inline constexpr Instance kInstance{};
 
+/// Stands for an int parameter that takes the running task's iteration (Task::iteration).
+struct Iteration {};
+inline constexpr Iteration kIteration{};
+
+/// What an int parameter is filled in with when its task runs.
+enum class RunValue { kNone, kOfInstance, kOfIteration };
+
 /// The value of one parameter of a kernel.
 struct Argument {
     BufferStorage* buffer = nullptr;  ///< for pointer parameters
-    bool is_instance = false;         ///< for int parameters: filled in at run time
+    RunValue run_value = RunValue::kNone;
     float real = 0.0f;
     int integer = 0;
 };
@@ -61,6 +68,9 @@ struct TaskBody {
     std::string name;  ///< of the kind, for traces
     int kind = 0;      ///< what the cost model tells apart
     std::vector<Launch> launches;
+    /// So many of the first launches take turns: all of them for colour 0, then all for colour 1,
+    /// and so on. They have the same segments.
+    int taking_turns = 0;
 
     /// What the cost model counts: items of all launches in strips [first_strip, end_strip).
     long item_count(int first_strip, int end_strip) const;
@@ -77,9 +87,10 @@ Argument make_argument(Value& value) {
         static_assert(std::is_same_v<V, Buffer<Element>>,
                       "this parameter takes a Buffer of its type");
         argument.buffer = &value;
-    } else if constexpr (std::is_same_v<V, Instance>) {
-        static_assert(std::is_same_v<Parameter, int>, "the instance is an int");
-        argument.is_instance = true;
+    } else if constexpr (std::is_same_v<V, Instance> || std::is_same_v<V, Iteration>) {
+        static_assert(std::is_same_v<Parameter, int>, "instance and iteration are ints");
+        argument.run_value =
+            std::is_same_v<V, Instance> ? RunValue::kOfInstance : RunValue::kOfIteration;
     } else {
         static_assert(std::is_same_v<V, Parameter>, "float for float, int for int");
         if constexpr (std::is_same_v<Parameter, float>)

@@ -72,18 +72,31 @@ std::string parameter_name(std::size_t launch, std::size_t parameter) {
     return "p" + std::to_string(launch) + "_" + std::to_string(parameter);
 }
 
-/// The entry point's parameters for one launch: all but the instance, which is common to all.
+/// The entry point's parameters for one launch: all but what is filled in at run time, which is
+/// common to all.
 void declare_parameters(std::ostream& out, const Launch& launch, std::size_t number) {
     for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
-        if (launch.arguments[k].is_instance) continue;
+        if (launch.arguments[k].run_value != RunValue::kNone) continue;
         out << type_name(launch.kernel->parameters[k]) << parameter_name(number, k) << ", ";
     }
+}
+
+std::string argument_text(const Launch& launch, std::size_t number, std::size_t k) {
+    switch (launch.arguments[k].run_value) {
+        case RunValue::kOfInstance:
+            return "instance";
+        case RunValue::kOfIteration:
+            return "iteration";
+        case RunValue::kNone:
+            return parameter_name(number, k);
+    }
+    throw std::logic_error("unknown run value");
 }
 
 void call_kernel(std::ostream& out, const Launch& launch, std::size_t number) {
     out << launch.kernel->name << "(i";
     for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
-        out << ", " << (launch.arguments[k].is_instance ? "instance" : parameter_name(number, k));
+        out << ", " << argument_text(launch, number, k);
     }
     out << ");";
 }
@@ -100,9 +113,9 @@ std::string segment_of(std::size_t launch) {
            " + strip * colours" + l + " + colour;\n";
 }
 
-void per_strip_loop(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "    for (int colour = 0; colour < colours" << l << "; ++colour) {\n    "
-        << segment_of(l) << "        int begin = segment[0];\n"
+/// One colour of the strip.
+void per_strip_items(std::ostream& out, const Launch& launch, std::size_t l) {
+    out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n"
         << "        int end = segment[1];\n"
         << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
         << "            item i = {begin, WEFT_LANES};\n            ";
@@ -114,6 +127,13 @@ void per_strip_loop(std::ostream& out, const Launch& launch, std::size_t l) {
     out << "\n        }\n    }\n";
 }
 
+/// Launches [first, end) in turns, colour by colour of the first's segments.
+void per_strip_loop(std::ostream& out, const TaskBody& body, std::size_t first, std::size_t end) {
+    out << "    for (int colour = 0; colour < colours" << first << "; ++colour) {\n";
+    for (std::size_t l = first; l < end; ++l) per_strip_items(out, body.launches[l], l);
+    out << "    }\n";
+}
+
 void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number) {
     out << "__kernel __attribute__((reqd_work_group_size(1, 1, 1)))\n"
         << "void " << entry_name(number) << "(";
@@ -121,11 +141,11 @@ void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number
         declare_parameters(out, body.launches[l], l);
         out << segment_parameters(l);
     }
-    out << "int first_strip, int instance) {\n"
+    out << "int first_strip, int instance, int iteration) {\n"
         << "    int strip = first_strip + (int)get_global_id(0);\n";
-    for (std::size_t l = 0; l < body.launches.size(); ++l) {
-        per_strip_loop(out, body.launches[l], l);
-    }
+    const auto turns = static_cast<std::size_t>(body.taking_turns);
+    if (turns > 0) per_strip_loop(out, body, 0, turns);
+    for (std::size_t l = turns; l < body.launches.size(); ++l) per_strip_loop(out, body, l, l + 1);
     out << "}\n\n";
 }
 
@@ -134,7 +154,8 @@ void per_colour_entry(std::ostream& out, const Launch& launch, std::size_t body,
                       std::size_t number) {
     out << "__kernel void " << entry_name(body, number) << "(";
     declare_parameters(out, launch, number);
-    out << segment_parameters(number) << "int colour, int first_strip, int instance) {\n"
+    out << segment_parameters(number)
+        << "int colour, int first_strip, int instance, int iteration) {\n"
         << "    int strip = first_strip + (int)get_global_id(1);\n"
         << segment_of(number)
         << "    int first = segment[0] + (int)get_global_id(0) * WEFT_LANES;\n"

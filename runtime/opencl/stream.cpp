@@ -77,7 +77,7 @@ cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index,
                                            const Launch& launch) {
     for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
         const Argument& argument = launch.arguments[k];
-        if (argument.is_instance) continue;
+        if (argument.run_value != RunValue::kNone) continue;
         if (argument.buffer != nullptr)
             kernel.setArg(index++, memory_of(*argument.buffer));
         else if (launch.kernel->parameters[k] == kernels::Parameter::kFloat) {
@@ -149,28 +149,29 @@ void OpenClStream::run_strips(const BoundBody& bound, const Submission& s,
     cl::Kernel kernel = entry.kernel;
     kernel.setArg(entry.dynamic, s.task->first_strip);
     kernel.setArg(entry.dynamic + 1, s.instance);
+    kernel.setArg(entry.dynamic + 2, s.task->iteration);
     const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
     enqueue(entry, cl::NDRange(strips), cl::NDRange(1), waits, running);
 }
 
 void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
                                std::vector<cl::Event>& waits, Running& running) {
-    const auto lanes = static_cast<std::size_t>(target_.info.lanes);
-    const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
-    for (std::size_t l = 0; l < bound.entries.size(); ++l) {
-        const Entry& entry = bound.entries[l];
-        const Segments& segments = bound.body->launches[l].segments;
+    for (const Entry& entry : bound.entries) {
         cl::Kernel kernel = entry.kernel;
         kernel.setArg(entry.dynamic + 1, s.task->first_strip);
         kernel.setArg(entry.dynamic + 2, s.instance);
-        for (int colour = 0; colour < segments.colour_count; ++colour) {
-            const int most = segments.largest(colour, s.task->first_strip, s.task->end_strip);
-            if (most == 0) continue;
-            kernel.setArg(entry.dynamic, colour);
-            const std::size_t items = (static_cast<std::size_t>(most) + lanes - 1) / lanes;
-            const cl::NDRange range((items + kGroup - 1) / kGroup * kGroup, strips);
-            enqueue(entry, range, cl::NDRange(kGroup, 1), waits, running);
-            waits.clear();  // the queue is in order: the first command's waits serve for all
+        kernel.setArg(entry.dynamic + 3, s.task->iteration);
+    }
+    const auto colours = [&](std::size_t l) {
+        return bound.body->launches[l].segments.colour_count;
+    };
+    const auto turns = static_cast<std::size_t>(bound.body->taking_turns);
+    for (int colour = 0; turns > 0 && colour < colours(0); ++colour) {
+        for (std::size_t l = 0; l < turns; ++l) run_colour(bound, l, colour, s, waits, running);
+    }
+    for (std::size_t l = turns; l < bound.entries.size(); ++l) {
+        for (int colour = 0; colour < colours(l); ++colour) {
+            run_colour(bound, l, colour, s, waits, running);
         }
     }
     if (running.last() == nullptr) {  // no items at all
@@ -179,6 +180,23 @@ void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
         running.first = running.last;
         note_first(running.first, enqueued);
     }
+}
+
+void OpenClStream::run_colour(const BoundBody& bound, std::size_t launch, int colour,
+                              const Submission& s, std::vector<cl::Event>& waits,
+                              Running& running) {
+    const Entry& entry = bound.entries[launch];
+    const Segments& segments = bound.body->launches[launch].segments;
+    const int most = segments.largest(colour, s.task->first_strip, s.task->end_strip);
+    if (most == 0) return;
+    cl::Kernel kernel = entry.kernel;
+    kernel.setArg(entry.dynamic, colour);
+    const auto lanes = static_cast<std::size_t>(target_.info.lanes);
+    const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
+    const std::size_t items = (static_cast<std::size_t>(most) + lanes - 1) / lanes;
+    const cl::NDRange range((items + kGroup - 1) / kGroup * kGroup, strips);
+    enqueue(entry, range, cl::NDRange(kGroup, 1), waits, running);
+    waits.clear();  // the queue is in order: the first command's waits serve for all
 }
 
 void OpenClStream::enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,

@@ -35,7 +35,8 @@ public:
                         std::span<Completion* const> waits) override;
 
 private:
-    /// A kernel with its arguments set, but for the last ones: colour, first strip, instance.
+    /// A kernel with its arguments set, but for the last ones: colour, first strip, instance,
+    /// iteration.
     struct Entry {
         cl::Kernel kernel;
         cl_uint dynamic = 0;  ///< index of the first argument that is set per submission
@@ -63,6 +64,8 @@ private:
                     Running& running);
     void run_colours(const BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                      Running& running);
+    void run_colour(const BoundBody& bound, std::size_t launch, int colour, const Submission& s,
+                    std::vector<cl::Event>& waits, Running& running);
     void enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
                  std::vector<cl::Event>& waits, Running& running);
     Completion* copy(Direction direction, BufferStorage& buffer, ElementSpan span,

@@ -23,9 +23,9 @@ struct BoundLaunch {
     kernels::RangeFunction function;
     Segments segments;
     std::vector<Argument> values;
-    std::vector<void*> pointers;           ///< storage of pointer parameters
-    std::vector<const void*> arguments;    ///< to the parameters' values
-    std::vector<std::size_t> instance_at;  ///< parameters that take the instance
+    std::vector<void*> pointers;         ///< storage of pointer parameters
+    std::vector<const void*> arguments;  ///< to the parameters' values
+    std::vector<std::size_t> filled_in;  ///< parameters that are known when a task runs
 
     BoundLaunch(const Launch& launch, int lanes)
         : function(lanes == 1 ? launch.kernel->scalar : launch.kernel->packed),
@@ -40,28 +40,40 @@ struct BoundLaunch {
                 arguments.push_back(&values[i].real);
             } else {
                 arguments.push_back(&values[i].integer);
-                if (values[i].is_instance) instance_at.push_back(i);
+                if (values[i].run_value != RunValue::kNone) filled_in.push_back(i);
             }
         }
     }
     BoundLaunch(BoundLaunch&&) = default;  // vectors keep their storage, so the pointers stay valid
 
-    void set_instance(int instance) {
-        for (const std::size_t i : instance_at) values[i].integer = instance;
+    void fill_in(int instance, int iteration) {
+        for (const std::size_t i : filled_in) {
+            values[i].integer = values[i].run_value == RunValue::kOfInstance ? instance : iteration;
+        }
     }
 
-    void run(int strip) const {
-        for (int colour = 0; colour < segments.colour_count; ++colour) {
-            const int begin = segments.item(strip, colour);
-            const int end = segments.item(strip, colour + 1);
-            if (begin < end) function(begin, end, arguments.data());
-        }
+    void run(int strip, int colour) const {
+        const int begin = segments.item(strip, colour);
+        const int end = segments.item(strip, colour + 1);
+        if (begin < end) function(begin, end, arguments.data());
     }
 };
 
 struct BoundBody {
     const TaskBody* body;
     std::vector<BoundLaunch> launches;
+
+    void run(int strip) const {
+        const auto turns = static_cast<std::size_t>(body->taking_turns);
+        for (int colour = 0; turns > 0 && colour < launches[0].segments.colour_count; ++colour) {
+            for (std::size_t l = 0; l < turns; ++l) launches[l].run(strip, colour);
+        }
+        for (std::size_t l = turns; l < launches.size(); ++l) {
+            for (int colour = 0; colour < launches[l].segments.colour_count; ++colour) {
+                launches[l].run(strip, colour);
+            }
+        }
+    }
 };
 
 class CpuCompletion final : public Completion {
@@ -223,10 +235,8 @@ private:
     }
 
     void run_body(BoundBody& body, const Task& task, int instance) {
-        for (BoundLaunch& launch : body.launches) launch.set_instance(instance);
-        const auto run_strip = [&](int strip) {
-            for (const BoundLaunch& launch : body.launches) launch.run(strip);
-        };
+        for (BoundLaunch& launch : body.launches) launch.fill_in(instance, task.iteration);
+        const auto run_strip = [&](int strip) { body.run(strip); };
         if (threads_ == 1) {
             for (int strip = task.first_strip; strip < task.end_strip; ++strip) run_strip(strip);
         } else {

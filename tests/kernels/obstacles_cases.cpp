@@ -53,7 +53,7 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
     }
 
     Argument substep;
-    substep.is_instance = true;
+    substep.run_value = RunValue::kOfInstance;
     Argument count;
     count.integer = kObstacles;
     Argument which;

@@ -14,7 +14,7 @@ union Slot {
 }  // namespace
 
 void run_on_host(const Launch& launch, kernels::RangeFunction function, int begin, int end,
-                 int instance) {
+                 int instance, int iteration) {
     std::vector<Slot> values(launch.arguments.size());
     std::vector<const void*> addresses;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -24,7 +24,9 @@ void run_on_host(const Launch& launch, kernels::RangeFunction function, int begi
         else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat)
             values[i].real = argument.real;
         else
-            values[i].integer = argument.is_instance ? instance : argument.integer;
+            values[i].integer = argument.run_value == RunValue::kOfInstance    ? instance
+                                : argument.run_value == RunValue::kOfIteration ? iteration
+                                                                               : argument.integer;
         addresses.push_back(&values[i]);
     }
     function(begin, end, addresses.data());

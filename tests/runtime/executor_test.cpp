@@ -69,6 +69,13 @@ const Machine kMachines[] = {
     {"HybridMapped", true,
      [] { return open_devices("cpu/1+opencl:0/1", forced(MemoryModel::kMapped)); }},
     {"OpenClAlone", true, [] { return open_devices("opencl:0"); }},
+    {"OpenClPerColour", true,
+     [] {
+         DeviceOptions options;
+         options.per_colour = true;
+         options.opencl_lanes = 1;
+         return open_devices("opencl:0", options);
+     }},
     {"OpenClAloneDiscrete", true,
      [] { return open_devices("opencl:0", forced(MemoryModel::kDiscrete)); }},
     {"ThreeDevices", true, three_devices},

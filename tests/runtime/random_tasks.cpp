@@ -87,6 +87,24 @@ void RandomTasks::add_bodies() {
     springs.body.launches = {launch(kernels::project_springs, springs_, *points_[0], ends_,
                                     material_, multipliers_, static_cast<int>(multipliers_.count()),
                                     100.0f, 0)};
+    // Two launches that take turns: what the second does to one colour, the first's next one sees.
+    Body& turns = body();
+    turns.updated = {0};
+    turns.has_multipliers = true;
+    for (const int fresh : {0, 1}) {
+        turns.body.launches.push_back(launch(kernels::project_springs, springs_, *points_[0], ends_,
+                                             material_, multipliers_,
+                                             static_cast<int>(multipliers_.count()), 10.0f, fresh));
+    }
+    turns.body.taking_turns = 2;
+    // Gravity by the task's iteration instead of the instance, and a launch behind the turns.
+    Body& falls = body();
+    falls.updated = {0, 1};
+    falls.read = {2};
+    falls.has_multipliers = true;
+    falls.body = {"", 0, {turns.body.launches[0], turns.body.launches[1]}, 2};
+    falls.body.launches.push_back(launch(kernels::predict, strips_, *points_[0], *points_[1],
+                                         *points_[2], gravity_, kH, kIteration));
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         bodies_[b]->body.name = "body " + std::to_string(b);
         bodies_[b]->body.kind = static_cast<int>(b);
@@ -112,7 +130,7 @@ Step RandomTasks::make_step(Random& random, int task_count) {
             random.integer(0, static_cast<int>(bodies_.size()) - 1))];
         const int first = random.integer(0, kStrips - 1);
         const int end = random.integer(first + 1, kStrips);
-        auto task = step.add(body.body, 0, first, end, 0);
+        auto task = step.add(body.body, random.integer(0, kInstances), first, end, 0);
         for (const int p : body.updated) {
             task.updates(*points_[static_cast<std::size_t>(p)], kBegin[first], kBegin[end]);
         }
@@ -146,16 +164,27 @@ std::vector<float> RandomTasks::state() {
     return all;
 }
 
+void RandomTasks::run_serially(const Task& task, int strip, int instance) {
+    const auto& launches = task.body->launches;
+    const auto run = [&](const Launch& launch, int colour) {
+        const Segments& s = launch.segments;
+        run_on_host(launch, launch.kernel->scalar, s.item(strip, colour), s.item(strip, colour + 1),
+                    instance, task.iteration);
+    };
+    const auto turns = static_cast<std::size_t>(task.body->taking_turns);
+    for (int colour = 0; turns > 0 && colour < kColours; ++colour) {
+        for (std::size_t l = 0; l < turns; ++l) run(launches[l], colour);
+    }
+    for (std::size_t l = turns; l < launches.size(); ++l) {
+        for (int c = 0; c < launches[l].segments.colour_count; ++c) run(launches[l], c);
+    }
+}
+
 void RandomTasks::run_serially(const Step& step) {
     for (int instance = 0; instance < kInstances; ++instance) {
         for (const Task& task : step.tasks()) {
-            const Launch& launch = task.body->launches.front();
-            const Segments& s = launch.segments;
             for (int strip = task.first_strip; strip < task.end_strip; ++strip) {
-                for (int colour = 0; colour < s.colour_count; ++colour) {
-                    run_on_host(launch, launch.kernel->scalar, s.item(strip, colour),
-                                s.item(strip, colour + 1), instance);
-                }
+                run_serially(task, strip, instance);
             }
         }
     }

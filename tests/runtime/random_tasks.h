@@ -33,6 +33,7 @@ public:
 private:
     struct Body;
     void add_bodies();
+    static void run_serially(const Task& task, int strip, int instance);
 
     static constexpr int kStrips = 8;
     static constexpr int kPoints = 4;  ///< buffers of points
