@@ -26,15 +26,24 @@ WEFT_INLINE real3 spring_gradient(real3 x0, real3 x1, real rest, real k) {
     return scale(along, k * ((length - rest) / divisor(length)));
 }
 
+/// k d d^T + across (I - d d^T)
+WEFT_INLINE sym3 spring_stiffness(real3 direction, real k, real across) {
+    return add_diagonal(outer_sym(direction, k - across), across);
+}
+
 /// d2E/dx0dx0 [N/m], projected to positive semi-definite
 WEFT_INLINE sym3 spring_hessian(real3 x0, real3 x1, real rest, real k) {
     const real3 along = subtract(x0, x1);
-    const real length = length3(along);
-    const real inverse = splat(1.0f) / divisor(length);
-    const real3 direction = scale(along, inverse);
-    // k d d^T + s (I - d d^T) = (k - s) d d^T + s I
+    const real inverse = splat(1.0f) / divisor(length3(along));
     const real across = k * larger(splat(1.0f) - rest * inverse, splat(0.0f));
-    return add_diagonal(outer_sym(direction, k - across), across);
+    return spring_stiffness(scale(along, inverse), k, across);
+}
+
+/// d2E/dx0dx0 [N/m] as it is: indefinite where the spring is compressed
+WEFT_INLINE sym3 spring_exact_hessian(real3 x0, real3 x1, real rest, real k) {
+    const real3 along = subtract(x0, x1);
+    const real inverse = splat(1.0f) / divisor(length3(along));
+    return spring_stiffness(scale(along, inverse), k, k * (splat(1.0f) - rest * inverse));
 }
 
 WEFT_KERNELS_END

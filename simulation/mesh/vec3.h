@@ -36,6 +36,12 @@ struct Mat3 {
 inline Vec3 operator*(const Mat3& m, Vec3 v) {
     return {dot(m.rows[0], v), dot(m.rows[1], v), dot(m.rows[2], v)};
 }
+inline Mat3 operator+(const Mat3& a, const Mat3& b) {
+    return {{a.rows[0] + b.rows[0], a.rows[1] + b.rows[1], a.rows[2] + b.rows[2]}};
+}
+inline Mat3 operator*(double s, const Mat3& m) {
+    return {{s * m.rows[0], s * m.rows[1], s * m.rows[2]}};
+}
 inline Mat3 transposed(const Mat3& m) {
     const auto& r = m.rows;
     return {

@@ -42,6 +42,15 @@ void MovingPins::place(double time, double h) {
     }
 }
 
+void MovingPins::place_at(double time, std::span<Vec3> positions) const {
+    for (const Group& group : groups_) {
+        const Frame map = group.motion.displacement(time);
+        for (std::size_t i = 0; i < group.vertices.size(); ++i) {
+            positions[static_cast<std::size_t>(group.vertices[i])] = map.to_world(group.rest[i]);
+        }
+    }
+}
+
 void MovingPins::add_launches(std::vector<Launch>& launches, Buffer<float4>& positions) {
     const int count = static_cast<int>(groups_.size());
     for (int g = 0; g < count; ++g) {

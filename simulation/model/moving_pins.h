@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/launch.h"
@@ -21,6 +22,8 @@ public:
 
     /// Fills in the frame that begins at `time` and has substeps of h [s].
     void place(double time, double h);
+    /// Writes where the pins are at `time` into their places of `positions` (new order).
+    void place_at(double time, std::span<Vec3> positions) const;
     Buffer<float4>& motions() { return motions_; }
     void add_launches(std::vector<Launch>& launches, Buffer<float4>& positions);
 

@@ -40,13 +40,17 @@ double cylinder_energy(int resolution, double radius) {
     return model.hinges->energy(bent) * radius * radius;
 }
 
-// For n x n vertices, from a separate computation in double precision. The values tend to 1.5: the
-// border, which has no hinges, counts less and less.
-TEST(Hinges, CylinderHasItsKnownEnergy) {
-    EXPECT_NEAR(cylinder_energy(20, 0.5), 1.419, 1e-3);
-    EXPECT_NEAR(cylinder_energy(40, 0.5), 1.461, 1e-3);
-    EXPECT_NEAR(cylinder_energy(80, 0.5), 1.481, 1e-3);
-    EXPECT_NEAR(cylinder_energy(40, 1.0), 1.461, 2e-3) << "whatever the radius";
+/// Only the edges along the axis bend, by t = 1 / ((n - 1) R) to each side:
+/// E R^2 / k = 3/2 (n - 2) / (n - 1) (sin(t/2) / (t/2))^4, which tends to 3/2 of the continuum.
+TEST(Hinges, CylinderHasTheEnergyOfTheClosedForm) {
+    for (const double radius : {0.5, 1.0}) {
+        for (const int n : {20, 40, 80}) {
+            const double half = 0.5 / ((n - 1) * radius);
+            const double expected = 1.5 * (n - 2) / (n - 1) * std::pow(std::sin(half) / half, 4.0);
+            // Positions are rounded to 3e-8, and bends are differences of theirs.
+            EXPECT_NEAR(cylinder_energy(n, radius), expected, 1e-4);
+        }
+    }
 }
 
 TEST(Hinges, FlatSheetAnywhereHasNoEnergy) {

@@ -1,0 +1,166 @@
+#include "simulation/reference/incremental_potential.h"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+
+#include "simulation/model/convert.h"
+
+namespace weft {
+
+namespace {
+
+using Corners = std::array<Vec3, kMaxCorners>;
+using Blocks = std::array<Mat3, kMaxCorners * kMaxCorners>;
+
+Corners corners_of(const ElementEnergies& family, int element, std::span<const Vec3> x) {
+    Corners corners;
+    const auto vertices = family.corners(element);
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        corners[k] = x[static_cast<std::size_t>(vertices[k])];
+    }
+    return corners;
+}
+
+/// The nearest positive semi-definite matrix: negative eigenvalues become 0.
+void project(Blocks& blocks, std::size_t corners) {
+    const auto size = static_cast<Eigen::Index>(3 * corners);
+    Eigen::MatrixXd whole(size, size);
+    const auto each = [&](auto visit) {
+        for (std::size_t j = 0; j < corners; ++j) {
+            for (std::size_t k = 0; k < corners; ++k) {
+                for (std::size_t r = 0; r < 3; ++r) {
+                    Vec3& row = blocks[j * corners + k].rows[r];
+                    const auto at = static_cast<Eigen::Index>(3 * j + r);
+                    const auto to = static_cast<Eigen::Index>(3 * k);
+                    visit(row.x, whole(at, to));
+                    visit(row.y, whole(at, to + 1));
+                    visit(row.z, whole(at, to + 2));
+                }
+            }
+        }
+    };
+    each([](double from, double& to) { to = from; });
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
+    if (solver.eigenvalues()(0) >= 0.0) return;
+    whole = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+            solver.eigenvectors().transpose();
+    each([](double& to, double from) { to = from; });
+}
+
+}  // namespace
+
+IncrementalPotential::IncrementalPotential(const Model& model, double time)
+    : elements_(make_element_energies(model)) {
+    const double h = model.h;
+    const Vec3 gravity = model.scene.gravity_at(time + 0.5 * h);
+    const auto count = static_cast<std::size_t>(model.vertex_count());
+    predicted_.resize(count);
+    inertia_.resize(count);
+    for (std::size_t v = 0; v < count; ++v) {
+        const float4& x = (*model.positions)[v];
+        predicted_[v] = to_vec3(x);
+        if (x.w <= 0.0f) continue;
+        inertia_[v] = model.masses[v] / (h * h);
+        predicted_[v] = predicted_[v] + h * (to_vec3((*model.velocities)[v]) + h * gravity);
+    }
+    if (model.moving_pins) model.moving_pins->place_at(time + h, predicted_);
+    make_pattern();
+}
+
+void IncrementalPotential::make_pattern() {
+    std::vector<char> free(predicted_.size());
+    for (std::size_t v = 0; v < free.size(); ++v) free[v] = is_free(static_cast<int>(v));
+    std::vector<BlockMatrix::Group> groups;
+    for (const auto& family : elements_) {
+        for (int e = 0; e < family->count(); ++e) groups.push_back({family->corners(e)});
+    }
+    hessian_ = BlockMatrix(free, groups);
+
+    for (const auto& family : elements_) {
+        std::vector<int>& slots = slots_.emplace_back();
+        for (int e = 0; e < family->count(); ++e) {
+            const auto vertices = family->corners(e);
+            for (const int row : vertices) {
+                for (const int column : vertices) slots.push_back(hessian_.find(row, column));
+            }
+        }
+    }
+    for (std::size_t v = 0; v < free.size(); ++v) {
+        diagonal_.push_back(hessian_.find(static_cast<int>(v), static_cast<int>(v)));
+    }
+}
+
+double IncrementalPotential::energy(std::span<const Vec3> x) const {
+    long double sum = 0.0L;
+    for (std::size_t v = 0; v < predicted_.size(); ++v) {
+        const Vec3 off = x[v] - predicted_[v];
+        sum += 0.5 * inertia_[v] * dot(off, off);
+    }
+    for (const auto& family : elements_) {
+        for (int e = 0; e < family->count(); ++e) {
+            sum += family->energy(e, corners_of(*family, e, x).data());
+        }
+    }
+    return static_cast<double>(sum);
+}
+
+std::vector<Vec3> IncrementalPotential::gradient(std::span<const Vec3> x) const {
+    std::vector<Vec3> sum(predicted_.size());
+    for (const auto& family : elements_) {
+        for (int e = 0; e < family->count(); ++e) {
+            Corners forces;
+            family->gradient(e, corners_of(*family, e, x).data(), forces.data());
+            const auto vertices = family->corners(e);
+            for (std::size_t k = 0; k < vertices.size(); ++k) {
+                Vec3& at = sum[static_cast<std::size_t>(vertices[k])];
+                at = at + forces[k];
+            }
+        }
+    }
+    for (std::size_t v = 0; v < sum.size(); ++v) {
+        sum[v] =
+            is_free(static_cast<int>(v)) ? sum[v] + inertia_[v] * (x[v] - predicted_[v]) : Vec3{};
+    }
+    return sum;
+}
+
+double IncrementalPotential::force_size(std::span<const Vec3> x) const {
+    double size = 0.0;
+    for (std::size_t v = 0; v < predicted_.size(); ++v) {
+        size += inertia_[v] * length(x[v] - predicted_[v]);
+    }
+    for (const auto& family : elements_) {
+        for (int e = 0; e < family->count(); ++e) {
+            Corners forces;
+            family->gradient(e, corners_of(*family, e, x).data(), forces.data());
+            const auto vertices = family->corners(e);
+            for (std::size_t k = 0; k < vertices.size(); ++k) {
+                if (is_free(vertices[k])) size += length(forces[k]);
+            }
+        }
+    }
+    return size;
+}
+
+const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, Curvature curvature) {
+    hessian_.set_zero();
+    for (std::size_t v = 0; v < predicted_.size(); ++v) {
+        if (diagonal_[v] >= 0) hessian_.add(diagonal_[v], inertia_[v] * Mat3{});
+    }
+    for (std::size_t f = 0; f < elements_.size(); ++f) {
+        const ElementEnergies& family = *elements_[f];
+        auto slot = slots_[f].begin();
+        for (int e = 0; e < family.count(); ++e) {
+            Blocks blocks;
+            family.hessian(e, corners_of(family, e, x).data(), blocks.data());
+            const std::size_t corners = family.corners(e).size();
+            if (curvature == Curvature::kProjected) project(blocks, corners);
+            for (std::size_t b = 0; b < corners * corners; ++b, ++slot) {
+                if (*slot >= 0) hessian_.add(*slot, blocks[b]);
+            }
+        }
+    }
+    return hessian_;
+}
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "simulation/reference/block_matrix.h"
+#include "simulation/reference/element_energies.h"
+
+namespace weft {
+
+/// What one step of a model minimises, in double precision:
+///
+///   E(x) = sum_v m_v / (2 h^2) |x_v - x~_v|^2 + sum of the element energies,
+///   x~ = x_t + h v_t + h^2 g
+///
+/// with the vertices that are held where they are at the step's end. It is the same for all
+/// solvers. Contact with obstacles is no part of it: that is an inequality, not an energy. Damping
+/// is none either: it takes its part of the velocities after the step.
+///
+/// All vectors are [vertices], in the new order.
+class IncrementalPotential {
+public:
+    /// The step that begins at `time` [s] from the model's positions and velocities, which are read
+    /// now. The model must outlive this object; its elements are read whenever they are needed.
+    IncrementalPotential(const Model& model, double time);
+
+    /// x~, and the held vertices' places.
+    const std::vector<Vec3>& predicted() const { return predicted_; }
+    bool is_free(int vertex) const { return inertia_[static_cast<std::size_t>(vertex)] > 0.0; }
+    /// m / h^2 [N/m], 0 for held vertices.
+    const std::vector<double>& inertia() const { return inertia_; }
+    const std::vector<std::unique_ptr<ElementEnergies>>& elements() const { return elements_; }
+
+    /// [J]
+    double energy(std::span<const Vec3> x) const;
+    /// dE/dx [N], 0 for held vertices.
+    std::vector<Vec3> gradient(std::span<const Vec3> x) const;
+    /// What the gradient's rounding is measured by: the sum over vertices of the sizes of the
+    /// forces that meet there [N], inertia included.
+    double force_size(std::span<const Vec3> x) const;
+
+    enum class Curvature {
+        kExact,
+        kProjected,  ///< every element's Hessian without its negative eigenvalues
+    };
+    /// d2E/dx2 [N/m] of the free vertices; valid until the next call.
+    const BlockMatrix& hessian(std::span<const Vec3> x, Curvature curvature);
+
+private:
+    void make_pattern();
+
+    std::vector<std::unique_ptr<ElementEnergies>> elements_;
+    std::vector<Vec3> predicted_;
+    std::vector<double> inertia_;
+    BlockMatrix hessian_;
+    std::vector<std::vector<int>> slots_;  ///< [family][element * corners^2], -1 where held
+    std::vector<int> diagonal_;            ///< [vertices] slot, -1 where held
+};
+
+}  // namespace weft

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "simulation/model/convert.h"
+#include "simulation/reference/incremental_potential.h"
+#include "tests/simulation/reference/problems.h"
+
+namespace weft::test {
+namespace {
+
+using Curvature = IncrementalPotential::Curvature;
+
+/// A sheet with a fixed and a moving pin that has been torn about: some springs are compressed.
+struct Torn {
+    Torn()
+        : model(parse_scene(kPinnedSheet, "test.toml"), warnings),
+          potential(model, 0.25),
+          x(shaken(potential.predicted(), 0.02, 1)) {}
+
+    Warnings warnings;
+    Model model;
+    IncrementalPotential potential;
+    std::vector<Vec3> x;
+};
+
+/// d f / d x_i by central differences of fourth order, for one coordinate of one vertex.
+template <class Function>
+auto derivative(const Function& f, std::vector<Vec3> x, std::size_t vertex, double Vec3::*axis) {
+    constexpr double kStep = 1e-4;
+    const auto at = [&](double steps) {
+        const double before = x[vertex].*axis;
+        x[vertex].*axis += steps * kStep;
+        const auto value = f(x);
+        x[vertex].*axis = before;
+        return value;
+    };
+    return (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * kStep);
+}
+
+TEST(IncrementalPotential, GradientIsTheDerivativeOfTheEnergy) {
+    const Torn torn;
+    const auto gradient = torn.potential.gradient(torn.x);
+    const auto energy = [&](const std::vector<Vec3>& x) { return torn.potential.energy(x); };
+    double size = 0.0;
+    for (const Vec3& g : gradient) size = std::max(size, length(g));
+    for (std::size_t v = 0; v < torn.x.size(); ++v) {
+        if (!torn.potential.is_free(static_cast<int>(v))) {
+            EXPECT_EQ(gradient[v], Vec3{}) << "held";
+            continue;
+        }
+        EXPECT_NEAR(derivative(energy, torn.x, v, &Vec3::x), gradient[v].x, 1e-7 * size);
+        EXPECT_NEAR(derivative(energy, torn.x, v, &Vec3::y), gradient[v].y, 1e-7 * size);
+        EXPECT_NEAR(derivative(energy, torn.x, v, &Vec3::z), gradient[v].z, 1e-7 * size);
+    }
+}
+
+TEST(IncrementalPotential, HessianIsTheDerivativeOfTheGradient) {
+    Torn torn;
+    std::mt19937 engine(3);
+    const auto along = shaken(std::vector<Vec3>(torn.x.size()), 1.0, 4);
+    std::vector<Vec3> direction = along;
+    for (std::size_t v = 0; v < direction.size(); ++v) {
+        if (!torn.potential.is_free(static_cast<int>(v))) direction[v] = {};
+    }
+    std::vector<Vec3> image(torn.x.size());
+    torn.potential.hessian(torn.x, Curvature::kExact).multiply(direction, image);
+
+    constexpr double kStep = 1e-5;
+    const auto at = [&](double steps) {
+        auto x = torn.x;
+        for (std::size_t v = 0; v < x.size(); ++v) x[v] = x[v] + steps * kStep * direction[v];
+        return torn.potential.gradient(x);
+    };
+    const auto g1 = at(1.0), g2 = at(-1.0), g3 = at(2.0), g4 = at(-2.0);
+    double error = 0.0;
+    double size = 0.0;
+    for (std::size_t v = 0; v < image.size(); ++v) {
+        const Vec3 slope = (1.0 / (12.0 * kStep)) * (8.0 * (g1[v] - g2[v]) - (g3[v] - g4[v]));
+        error += dot(slope - image[v], slope - image[v]);
+        size += dot(image[v], image[v]);
+    }
+    EXPECT_LT(std::sqrt(error / size), 1e-7);
+}
+
+TEST(IncrementalPotential, OnlyTheProjectedHessianIsPositive) {
+    Torn torn;
+    const auto least_product = [&](Curvature curvature) {
+        const BlockMatrix hessian = torn.potential.hessian(torn.x, curvature);
+        // The most negative curvature among directions that power iteration prefers.
+        std::vector<Vec3> direction = shaken(std::vector<Vec3>(torn.x.size()), 1.0, 5);
+        std::vector<Vec3> image(direction.size());
+        double shift = 0.0;
+        for (const Mat3& block : hessian.blocks()) {
+            for (const Vec3& row : block.rows) shift = std::max(shift, length(row));
+        }
+        shift *= 10.0;
+        double quotient = 0.0;
+        for (int i = 0; i < 500; ++i) {
+            hessian.multiply(direction, image);
+            double square = 0.0;
+            double product = 0.0;
+            for (std::size_t v = 0; v < direction.size(); ++v) {
+                if (!torn.potential.is_free(static_cast<int>(v))) direction[v] = {};
+                square += dot(direction[v], direction[v]);
+                product += dot(direction[v], image[v]);
+            }
+            quotient = product / square;
+            for (std::size_t v = 0; v < direction.size(); ++v) {
+                direction[v] = (1.0 / std::sqrt(square)) * (shift * direction[v] - image[v]);
+            }
+        }
+        return quotient;
+    };
+    EXPECT_LT(least_product(Curvature::kExact), 0.0) << "the state is a case";
+    EXPECT_GT(least_product(Curvature::kProjected), 0.0);
+}
+
+TEST(IncrementalPotential, IsZeroInFreeFall) {
+    Scene scene = parse_scene(kPinnedSheet, "test.toml");
+    scene.cloths[0].pins.clear();
+    Warnings warnings;
+    const Model model(scene, warnings);
+    for (std::size_t v = 0; v < model.velocities->count(); ++v) {
+        (*model.velocities)[v] = to_float4({1.0, 2.0, 3.0});
+    }
+    const IncrementalPotential potential(model, 0.0);
+    EXPECT_LT(potential.energy(potential.predicted()), 1e-9);  // the positions' rounding
+    const Vec3 fallen = potential.predicted()[0] - to_vec3((*model.positions)[0]);
+    const double h = scene.dt / scene.substeps;
+    EXPECT_LT(length(fallen - h * (Vec3{1.0, 2.0, 3.0} + h * scene.gravity)), 1e-15);
+}
+
+TEST(IncrementalPotential, HoldsPinsWhereTheyAreAtTheStepsEnd) {
+    const Torn torn;
+    // The second pin moves with 1 m/s along x; the step begins at 0.25 s and takes 0.01 s.
+    int moving = 0;
+    for (int v = 0; v < torn.model.vertex_count(); ++v) {
+        if (torn.potential.is_free(v)) continue;
+        const Vec3 off = torn.potential.predicted()[static_cast<std::size_t>(v)] -
+                         to_vec3((*torn.model.positions)[static_cast<std::size_t>(v)]);
+        if (length(off) == 0.0) continue;
+        EXPECT_LT(length(off - Vec3{0.26, 0.0, 0.0}), 1e-7);
+        ++moving;
+    }
+    EXPECT_EQ(moving, 1);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "simulation/mesh/vec3.h"
+#include "simulation/scene/read_scene.h"
+
+namespace weft::test {
+
+/// One step of 0.01 s of a small sheet that hangs from a fixed and a moving pin.
+inline const std::string kPinnedSheet = R"(
+[scene]
+frames = 1
+dt = 0.04
+substeps = 4
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [7, 8] }
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+bend = { stiffness = 1.0e-2 }
+[[cloth.pins]]
+corners = ["x-z-"]
+[[cloth.pins]]
+corners = ["x+z-"]
+motion = { velocity = [1.0, 0.0, 0.0] }
+)";
+
+/// x with every coordinate moved by up to `size` [m], the same with every standard library.
+inline std::vector<Vec3> shaken(std::vector<Vec3> x, double size, unsigned seed) {
+    std::mt19937 engine(seed);
+    const auto random = [&] {
+        return size * (2.0 * static_cast<double>(engine()) / 4294967295.0 - 1.0);
+    };
+    for (Vec3& v : x) {
+        v.x += random();
+        v.y += random();
+        v.z += random();
+    }
+    return x;
+}
+
+}  // namespace weft::test
