@@ -4,19 +4,15 @@
 #include <cmath>
 
 namespace weft::scheduler {
-namespace {
-
-// One frame counts as at most this much longer or shorter than expected, so that a disturbed one
-// hardly moves the correction.
-constexpr double kLargestStep = 1.25;
-
-}  // namespace
 
 PlanChoice::PlanChoice(std::uint32_t alternatives, const PlanChoiceSettings& settings)
-    : settings_(settings), correction_(alternatives, 1.0) {}
+    : settings_(settings), history_(alternatives) {
+    // Two frames as planned stand at the beginning, so that the first one measured is not the rule.
+    for (History& history : history_) history.ratios = {1.0, 1.0};
+}
 
 std::uint32_t PlanChoice::choose(std::span<const double> predicted) {
-    const auto expected = [&](std::uint32_t i) { return predicted[i] * correction_[i]; };
+    const auto expected = [&](std::uint32_t i) { return predicted[i] * correction(i); };
     std::uint32_t best = 0;
     for (std::uint32_t i = 1; i < predicted.size(); ++i) {
         if (expected(i) < expected(best)) best = i;
@@ -28,18 +24,27 @@ std::uint32_t PlanChoice::choose(std::span<const double> predicted) {
         current_ = best;
         frames_better_ = 0;
     }
-    for (std::uint32_t i = 0; i < correction_.size(); ++i) {
-        if (i != current_) correction_[i] += settings_.forgetting_rate * (1.0 - correction_[i]);
+    for (std::uint32_t i = 0; i < history_.size(); ++i) {
+        if (i == current_) continue;
+        for (double& ratio : history_[i].ratios) ratio += settings_.forgetting_rate * (1.0 - ratio);
+        update_median(history_[i]);
     }
     return current_;
 }
 
 void PlanChoice::measured(std::uint32_t alternative, double planned, double seconds) {
     if (!(planned > 0.0) || !(seconds > 0.0)) return;
-    double& correction = correction_[alternative];
-    const double ratio =
-        std::clamp(seconds / planned, correction / kLargestStep, correction * kLargestStep);
-    correction += settings_.learning_rate * (ratio - correction);
+    History& history = history_[alternative];
+    if (history.ratios.size() >= settings_.window) history.ratios.erase(history.ratios.begin());
+    history.ratios.push_back(seconds / planned);
+    update_median(history);
+}
+
+void PlanChoice::update_median(History& history) {
+    sorted_ = history.ratios;
+    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
+    std::nth_element(sorted_.begin(), middle, sorted_.end());
+    history.median = *middle;
 }
 
 }  // namespace weft::scheduler

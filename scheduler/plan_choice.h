@@ -9,14 +9,15 @@ namespace weft::scheduler {
 struct PlanChoiceSettings {
     double margin = 0.03;           ///< relative gain below which a change is not worth it
     std::uint32_t patience = 3;     ///< frames in a row in which the gain must be there
-    double learning_rate = 0.2;     ///< of measured / planned, per frame in use
-    double forgetting_rate = 0.01;  ///< of the same, per frame out of use
+    std::uint32_t window = 9;       ///< frames in use that a correction is the median of
+    double forgetting_rate = 0.01;  ///< of corrections, per frame out of use
 };
 
 /// Chooses between alternatives (each single device, the mixture, ...) frame by frame, so that
 /// noise does not flip plans: a change needs a gain above the margin for some frames in a row. And
 /// what predictions get wrong is learnt: each alternative's prediction is multiplied by how much
-/// longer than planned it has been taking, which is slowly forgotten while it is out of use.
+/// longer than planned it has been taking (the median of its last frames), which is slowly
+/// forgotten while it is out of use, or one bad spell would rule it out for good.
 class PlanChoice {
 public:
     explicit PlanChoice(std::uint32_t alternatives, const PlanChoiceSettings& settings = {});
@@ -30,13 +31,21 @@ public:
 
     std::uint32_t current() const { return current_; }
     /// How much longer than planned the alternative takes, as learnt.
-    double correction(std::uint32_t alternative) const { return correction_[alternative]; }
+    double correction(std::uint32_t alternative) const { return history_[alternative].median; }
 
 private:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+    /// measured / planned of the last frames in use.
+    struct History {
+        std::vector<double> ratios;
+        double median = 1.0;
+    };
+    void update_median(History& history);
+
     PlanChoiceSettings settings_;
-    std::vector<double> correction_;  // [alternative]
+    std::vector<History> history_;  // [alternative]
+    std::vector<double> sorted_;    // working memory
     std::uint32_t current_ = kNone;
     std::uint32_t frames_better_ = 0;
 };

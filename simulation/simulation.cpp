@@ -9,6 +9,7 @@
 #include "runtime/tbb/cpu_device.h"
 #include "simulation/diagnostics.h"
 #include "simulation/output/state_hash.h"
+#include "simulation/planning/frame_planner.h"
 
 namespace weft {
 
@@ -56,6 +57,8 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options, War
                                               options.plan, options.division);
     calibrate();
 }
+
+Simulation::~Simulation() = default;
 
 Simulation::State Simulation::save() const {
     const auto copy = [](const Buffer<float4>& buffer) {
@@ -142,7 +145,7 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
                  static_cast<std::uint64_t>(task.items), placed.start, placed.end});
         }
     }
-    const auto& costs = planner_->costs();
+    const auto& costs = planner_->timing().costs();
     for (std::uint32_t kind = 0; kind < costs.kinds(); ++kind) {
         for (std::uint32_t d = 0; d < costs.devices(); ++d) {
             const auto& fit = costs.fit(kind, d);

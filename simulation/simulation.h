@@ -7,9 +7,16 @@
 
 #include "runtime/device_list.h"
 #include "runtime/trace/records.h"
-#include "simulation/planning/frame_planner.h"
+#include "simulation/planning/division.h"
+#include "simulation/planning/plan_kind.h"
+#include "simulation/solver/solver.h"
 
 namespace weft {
+
+class Executor;
+class FramePlanner;
+struct FramePlan;
+struct RunTimes;
 
 struct SimulationOptions {
     std::string devices = "hybrid";
@@ -23,6 +30,7 @@ class Simulation {
 public:
     /// Throws UserError for a scene or devices that cannot be had.
     Simulation(const Scene& scene, const SimulationOptions& options, Warnings& warnings);
+    ~Simulation();
 
     /// Simulates the next frame: plans, runs all substeps, checks the state, measures energies.
     /// Throws RunError if a device failed or the state went bad; then the state is that of the

@@ -12,20 +12,10 @@ namespace weft {
 
 namespace {
 
-constexpr double kFirstLatency = 50e-6;  ///< [s] until it has been measured
-/// Frames that a correction is the median of: more than the cost model looks back on, so that a
-/// device whose speed has changed gets new costs, and not its mixtures a bad name.
-constexpr std::size_t kRatioWindow = 25;
 constexpr std::size_t kMostCandidates = 64;
-/// Another plan has to be predicted faster by this much before it replaces the one in use: less is
-/// noise, and every change costs caches and, on discrete memory, copies.
-constexpr double kHysteresis = 0.01;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
+/// Another division of the mixture has to be predicted faster by this much: less is noise, and
+/// every change costs caches and, on discrete memory, copies.
+constexpr double kDivisionMargin = 0.002;
 
 }  // namespace
 
@@ -36,9 +26,9 @@ FramePlanner::FramePlanner(Solver& solver, int strip_count, const std::vector<De
       devices_(devices),
       kind_(kind),
       fixed_(std::move(division)),
-      costs_(static_cast<std::uint32_t>(solver.kinds().size()),
-             static_cast<std::uint32_t>(devices.size())),
-      latency_(devices.size() * devices.size(), kFirstLatency),
+      timing_(solver.kinds().size(), devices.size()),
+      choice_(static_cast<std::uint32_t>(devices.size()) + 1),
+      probes_(static_cast<std::uint32_t>(devices.size())),
       mixture_(Division::proportional(strip_count, std::vector<double>(devices.size(), 1.0))) {
     if (!fixed_) return;
     const auto& given = fixed_->strips;
@@ -48,6 +38,11 @@ FramePlanner::FramePlanner(Solver& solver, int strip_count, const std::vector<De
                     " devices and " + std::to_string(sum) + " strips; there are " +
                     std::to_string(devices.size()) + " devices and " + std::to_string(strip_count) +
                     " strips");
+}
+
+std::uint32_t FramePlanner::alternative_of(const Division& division) const {
+    const auto devices = division.devices();
+    return static_cast<std::uint32_t>(devices.size() == 1 ? devices[0] : device_count());
 }
 
 FramePlanner::Candidate& FramePlanner::candidate(const Division& division) {
@@ -71,19 +66,14 @@ FramePlanner::Candidate& FramePlanner::candidate(const Division& division) {
     return *known;
 }
 
-double FramePlanner::task_cost(const Task& task, int device) const {
-    return costs_.predict(static_cast<std::uint32_t>(task.body->kind),
-                          static_cast<std::uint32_t>(device), static_cast<double>(task.items));
-}
-
 void FramePlanner::refresh(const Candidate& candidate, scheduler::TaskGraph& graph, bool pinned) {
     cost_.resize(devices_.size());
     const auto& tasks = candidate.step.tasks();
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const int own = candidate.devices[static_cast<std::size_t>(tasks[t].region)];
+        const int own = own_device(candidate, t);
         for (int d = 0; d < device_count(); ++d) {
             cost_[static_cast<std::size_t>(d)] =
-                pinned && d != own ? scheduler::kCannotRun : task_cost(tasks[t], d);
+                pinned && d != own ? scheduler::kCannotRun : timing_.task(tasks[t], d);
         }
         graph.set_cost(static_cast<scheduler::TaskId>(t), cost_);
     }
@@ -92,7 +82,7 @@ void FramePlanner::refresh(const Candidate& candidate, scheduler::TaskGraph& gra
         for (int q = 0; q < device_count(); ++q) {
             if (p == q) continue;
             graph.set_link(static_cast<scheduler::ProcessorId>(p),
-                           static_cast<scheduler::ProcessorId>(q), latency(p, q),
+                           static_cast<scheduler::ProcessorId>(q), timing_.latency(p, q),
                            std::numeric_limits<double>::infinity());
         }
     }
@@ -106,45 +96,25 @@ bool FramePlanner::links_are_current(const scheduler::TaskGraph& graph) const {
             if (p == q) continue;
             const double used = graph.latency(static_cast<scheduler::ProcessorId>(p),
                                               static_cast<scheduler::ProcessorId>(q));
-            if (std::abs(used - latency(p, q)) > 0.1 * latency(p, q)) return false;
+            if (std::abs(used - timing_.latency(p, q)) > 0.1 * timing_.latency(p, q)) return false;
         }
     }
     return true;
-}
-
-double FramePlanner::correction(unsigned mask) const {
-    const auto known = ratios_.find(mask);
-    return known == ratios_.end() || known->second.empty() ? 1.0 : median(known->second);
 }
 
 double FramePlanner::predict(const Division& division) {
     Candidate& c = candidate(division);
     if (c.predicted_in != frame_) {
         refresh(c, c.pinned, true);
-        heft_.schedule(c.pinned, trial_);
-        c.makespan = trial_.makespan;
+        c.makespan = in_order_.makespan(c.pinned);
         c.predicted_in = frame_;
     }
-    return c.makespan * correction(division.mask());
-}
-
-Division FramePlanner::best_single() {
-    Division best;
-    double best_time = std::numeric_limits<double>::infinity();
-    for (int d = 0; d < device_count(); ++d) {
-        Division single = Division::single(device_count(), strip_count_, d);
-        // In use, it stays unless another is clearly faster.
-        const double time = predict(single) * (last_ == single ? 1.0 - kHysteresis : 1.0);
-        if (time >= best_time) continue;
-        best_time = time;
-        best = std::move(single);
-    }
-    return best;
+    return c.makespan;
 }
 
 /// One step of a hill climb per frame: the best of the mixture and its neighbours.
 void FramePlanner::improve_mixture() {
-    double best_time = predict(mixture_) * (1.0 - 0.2 * kHysteresis);
+    double best_time = predict(mixture_) * (1.0 - kDivisionMargin);
     Division best = mixture_;
     for (Division& neighbour : mixture_.neighbours()) {
         if (neighbour.devices().size() < 2) continue;
@@ -157,38 +127,64 @@ void FramePlanner::improve_mixture() {
 }
 
 Division FramePlanner::choose() {
+    constexpr double kOutOfQuestion = std::numeric_limits<double>::infinity();
     if (fixed_) return *fixed_;
-    const bool can_mix = device_count() > 1 && strip_count_ > 1;
-    if (kind_ == PlanKind::kSingle || !can_mix) return best_single();
-    improve_mixture();
-    if (kind_ == PlanKind::kExact) return mixture_;
-    Division single = best_single();
-    const bool mixing = last_ && last_->devices().size() > 1;
-    const double advantage = mixing ? 1.0 + kHysteresis : 1.0 - kHysteresis;
-    return predict(mixture_) < predict(single) * advantage ? mixture_ : single;
+    if (can_mix() && kind_ != PlanKind::kSingle) improve_mixture();
+    if (can_mix() && kind_ == PlanKind::kExact) return mixture_;
+    predicted_.clear();
+    for (int d = 0; d < device_count(); ++d) predicted_.push_back(predict(single(d)));
+    const bool mix = can_mix() && kind_ == PlanKind::kAuto;
+    predicted_.push_back(mix ? predict(mixture_) : kOutOfQuestion);
+    const int chosen = static_cast<int>(choice_.choose(predicted_));
+    const Division division = chosen == device_count() ? mixture_ : single(chosen);
+    return probe(division).value_or(division);
 }
 
-void FramePlanner::place_anywhere(Candidate& c) {
-    // The graph in which every task may run anywhere gives the bounds, and sometimes a better plan.
-    refresh(c, c.free, false);
-    heft_.schedule(c.free, trial_);
-    if (trial_.makespan < current_.plan.makespan * (1.0 - 2.0 * kHysteresis)) {
-        std::swap(trial_, current_.plan);
+/// A plan that lets one of the devices that the chosen one leaves out do something, if it is time
+/// to look at it again and the price can be paid.
+std::optional<Division> FramePlanner::probe(const Division& chosen) {
+    for (int d = 0; d < device_count(); ++d) {
+        const auto device = static_cast<std::uint32_t>(d);
+        if (chosen.strips[device] > 0 || !probes_.due(device, 0.0)) continue;
+        const Division trial =
+            kind_ == PlanKind::kSingle || !can_mix() ? single(d) : with_one_strip_for(d, chosen);
+        const double price = predict(trial) / predict(chosen) - 1.0;
+        const double seconds = std::max(0.0, price) * last_frame_time_;
+        if (!probes_.due(device, seconds)) continue;
+        probes_.paid(device, seconds);
+        return trial;
     }
-    bounds_.apply(c.free, current_.plan);
+    return std::nullopt;
 }
 
+/// From the device with the most strips: it has one to spare.
+Division FramePlanner::with_one_strip_for(int device, const Division& chosen) const {
+    Division division = chosen;
+    --*std::ranges::max_element(division.strips);
+    ++division.strips[static_cast<std::size_t>(device)];
+    return division;
+}
+
+/// The solver's own order of tasks is made to hide the exchange; HEFT with insertion may know a
+/// better one.
 void FramePlanner::fill(const Division& division) {
     Candidate& c = candidate(division);
     refresh(c, c.pinned, true);
-    heft_.schedule(c.pinned, current_.plan);
-    if (!fixed_ && division.devices().size() > 1)
-        place_anywhere(c);
-    else
+    in_order_.schedule(c.pinned, current_.plan);
+    if (division.devices().size() > 1) {
+        heft_.schedule(c.pinned, trial_);
+        if (trial_.makespan < current_.plan.makespan * (1.0 - kDivisionMargin)) {
+            std::swap(trial_, current_.plan);
+        }
+        refresh(c, c.free, false);
+        bounds_.apply(c.free, current_.plan);
+    } else {
         bounds_.apply(c.pinned, current_.plan);
+    }
     current_.step = &c.step;
     current_.division = division;
-    current_.substep_time = current_.plan.makespan * correction(division.mask());
+    const double correction = choice_.correction(alternative_of(division));
+    current_.substep_time = current_.plan.makespan * correction;
 }
 
 const FramePlan& FramePlanner::next() {
@@ -197,7 +193,6 @@ const FramePlan& FramePlanner::next() {
     if (candidates_.size() > kMostCandidates) candidates_.clear();
     const Division division = choose();
     fill(division);
-    last_ = division;
     current_.plan_time = now() - start;
     return current_;
 }
@@ -211,108 +206,51 @@ std::vector<FramePlan> FramePlanner::calibration() {
         FramePlan& plan = plans.emplace_back();
         plan.step = &c.step;
         plan.division = division;
-        heft_.schedule(c.pinned, plan.plan);
+        plan.calibrates = true;
+        in_order_.schedule(c.pinned, plan.plan);
         c.devices = division.devices();
     };
     // Cut in two and run by one device: so each kind of task is seen with few and with many items.
-    for (int d = 0; d < device_count(); ++d) {
-        if (device_count() > 1 && strip_count_ > 1)
-            add(mixture_, d);
-        else
-            add(Division::single(device_count(), strip_count_, d), d);
-    }
-    if (device_count() > 1 && strip_count_ > 1) add(mixture_, -1);
+    for (int d = 0; d < device_count(); ++d) add(can_mix() ? mixture_ : single(d), d);
+    if (can_mix()) add(mixture_, -1);
     return plans;
 }
 
 void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int instances) {
-    learn_tasks(plan, times, instances);
-    costs_.refit();
+    const auto task_times = timing_.learn(*plan.step, plan.plan, times, instances);
     ++frame_;  // predictions from before are void
-    if (plan.substep_time > 0.0) learn_correction(plan, times, instances);
-    if (mixture_.devices().size() > 1 && !last_) {
-        // Calibration has just begun to tell the devices' speeds apart.
-        std::vector<double> speeds;
-        for (int d = 0; d < device_count(); ++d) {
-            const double time = predict(Division::single(device_count(), strip_count_, d));
-            speeds.push_back(time > 0.0 ? 1.0 / time : 1.0);
-        }
-        mixture_ = Division::proportional(strip_count_, speeds);
+    if (plan.calibrates) {
+        balance_mixture();
+        return;
     }
+    last_frame_time_ = times.end - times.start;
+    probes_.end_frame(last_frame_time_);
+    for (const int d : plan.division.devices()) probes_.used(static_cast<std::uint32_t>(d));
+    choice_.measured(alternative_of(plan.division),
+                     makespan_of(plan.division, task_times) * instances, last_frame_time_);
 }
 
-/// A task's cost runs from when it could have started (its device was free and its data were there)
-/// to its end: so it holds what the device needs to get going. What lies before that, when a device
-/// waited for another one, is the latency between the two.
-void FramePlanner::learn_tasks(const FramePlan& plan, const RunTimes& times, int instances) {
-    const auto& tasks = plan.step->tasks();
-    const std::size_t count = tasks.size();
-    const auto at = [&](int instance, int task) {
-        return static_cast<std::size_t>(instance) * count + static_cast<std::size_t>(task);
-    };
-    std::vector<double> end(count * static_cast<std::size_t>(instances), 0.0);
-    for (const auto& device : times.tasks) {
-        for (const TaskTime& time : device) end[at(time.instance, time.task)] = time.end;
+/// What the plan would have been predicted to take had the costs of its tasks been known. Compared
+/// with what it took, this is what the planner gets wrong (submission, jitter, substeps that
+/// overlap); a wrong cost is the business of the cost model, and no bad name for the plan.
+double FramePlanner::makespan_of(const Division& division, const std::vector<double>& task_times) {
+    Candidate& c = candidate(division);
+    for (std::size_t t = 0; t < task_times.size(); ++t) {
+        cost_.assign(devices_.size(), scheduler::kCannotRun);
+        cost_[static_cast<std::size_t>(own_device(c, t))] = task_times[t];
+        c.pinned.set_cost(static_cast<scheduler::TaskId>(t), cost_);
     }
-    const auto device_of = [&](int task) {
-        return static_cast<int>(plan.plan.placements[static_cast<std::size_t>(task)].processor);
-    };
-
-    struct Arrival {
-        double data = 0.0;   ///< when the last input from another device was made
-        double ready = 0.0;  ///< when it has arrived, as far as is known
-        int from = -1;
-    };
-    std::vector<Arrival> arrivals(end.size());
-    const auto note = [&](int instance, const Dependency& d, std::size_t from) {
-        const int p = device_of(d.from);
-        const int q = device_of(d.to);
-        if (p == q) return;
-        Arrival& arrival = arrivals[at(instance, d.to)];
-        if (end[from] + latency(p, q) <= arrival.ready) return;
-        arrival = {end[from], end[from] + latency(p, q), p};
-    };
-    for (int i = 0; i < instances; ++i) {
-        for (const Dependency& d : plan.step->dependencies()) note(i, d, at(i, d.from));
-        if (i == 0) continue;
-        for (const Dependency& d : plan.step->carried()) note(i, d, at(i - 1, d.from));
-    }
-
-    std::vector<std::vector<double>> waits(latency_.size());
-    for (std::size_t device = 0; device < times.tasks.size(); ++device) {
-        double free = times.start;
-        for (const TaskTime& time : times.tasks[device]) {
-            const Arrival& arrival = arrivals[at(time.instance, time.task)];
-            if (arrival.from >= 0 && arrival.data > free) {
-                waits[index(arrival.from, static_cast<int>(device))].push_back(time.start -
-                                                                               arrival.data);
-            }
-            const double could_start = std::min(time.start, std::max(free, arrival.ready));
-            const Task& task = tasks[static_cast<std::size_t>(time.task)];
-            costs_.observe(static_cast<std::uint32_t>(task.body->kind),
-                           static_cast<std::uint32_t>(device), static_cast<double>(task.items),
-                           time.end - could_start);
-            free = time.end;
-        }
-    }
-    for (std::size_t link = 0; link < waits.size(); ++link) {
-        if (waits[link].empty()) continue;
-        latency_[link] += 0.3 * (std::clamp(median(waits[link]), 1e-6, 5e-3) - latency_[link]);
-    }
+    return in_order_.makespan(c.pinned);
 }
 
-/// What a plan as a whole is off by (submission, caches that two devices share): the median ratio
-/// of the last frames corrects the next prediction. Divisions out of use drift back to no
-/// correction, or one bad spell would rule them out for good.
-void FramePlanner::learn_correction(const FramePlan& plan, const RunTimes& times, int instances) {
-    const double planned = plan.plan.makespan * instances;
-    for (auto& [mask, ratios] : ratios_) {
-        if (mask == plan.division.mask()) continue;
-        for (double& ratio : ratios) ratio += 0.01 * (1.0 - ratio);
+/// Calibration tells the devices' speeds apart; from there, the division is improved step by step.
+void FramePlanner::balance_mixture() {
+    std::vector<double> speeds;
+    for (int d = 0; d < device_count(); ++d) {
+        const double time = predict(single(d));
+        speeds.push_back(time > 0.0 ? 1.0 / time : 1.0);
     }
-    auto& ratios = ratios_[plan.division.mask()];
-    ratios.push_back((times.end - times.start) / planned);
-    if (ratios.size() > kRatioWindow) ratios.erase(ratios.begin());
+    mixture_ = Division::proportional(strip_count_, speeds);
 }
 
 }  // namespace weft

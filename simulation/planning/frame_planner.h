@@ -5,19 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/executor.h"
-#include "scheduler/cost_model.h"
 #include "scheduler/heft.h"
+#include "scheduler/in_order.h"
+#include "scheduler/plan_choice.h"
+#include "scheduler/probing.h"
 #include "simulation/planning/division.h"
+#include "simulation/planning/plan_kind.h"
+#include "simulation/planning/timing_model.h"
 #include "simulation/solver/solver.h"
 
 namespace weft {
-
-enum class PlanKind {
-    kAuto,    ///< the mixture of all devices or a single one, whichever is predicted to be faster
-    kExact,   ///< always the mixture
-    kSingle,  ///< the best single device
-};
 
 /// What is to be done in the next frame's substeps, and what it will take.
 struct FramePlan {
@@ -26,11 +23,12 @@ struct FramePlan {
     scheduler::Plan plan;  ///< of one substep [s]
     double substep_time =
         0.0;  ///< planned [s]: the plan's makespan, corrected as earlier plans were off
-    double plan_time = 0.0;  ///< what planning took [s]
+    double plan_time = 0.0;   ///< what planning took [s]
+    bool calibrates = false;  ///< made to learn about devices, not to be fast
 };
 
-/// Plans every frame anew: divides the strips among the devices and places the tasks that follow
-/// by HEFT, with costs learnt from all frames before.
+/// Plans every frame anew: divides the strips among the devices and orders the tasks that follow,
+/// with costs learnt from all frames before.
 class FramePlanner {
 public:
     /// division: instead of searching for one, for tests and studies.
@@ -45,9 +43,7 @@ public:
     /// Learns from how a plan ran.
     void learn(const FramePlan& plan, const RunTimes& times, int instances);
 
-    const scheduler::CostModel& costs() const { return costs_; }
-    /// Time from a task's end on one device until one that waits for it starts on another [s].
-    double latency(int from, int to) const { return latency_[index(from, to)]; }
+    const TimingModel& timing() const { return timing_; }
 
 private:
     /// A division's step and its two graphs.
@@ -55,51 +51,54 @@ private:
         Step step;
         std::vector<int> devices;     ///< [region]
         scheduler::TaskGraph pinned;  ///< every task on its region's device
-        scheduler::TaskGraph free;    ///< every task anywhere
+        scheduler::TaskGraph free;    ///< every task anywhere, for the bounds
         double makespan = 0.0;        ///< predicted, pinned
         long predicted_in = -1;       ///< the frame in which it was
     };
 
-    std::size_t index(int from, int to) const {
-        return static_cast<std::size_t>(from) * devices_.size() + static_cast<std::size_t>(to);
-    }
     int device_count() const { return static_cast<int>(devices_.size()); }
+    bool can_mix() const { return device_count() > 1 && strip_count_ > 1; }
+    Division single(int device) const {
+        return Division::single(device_count(), strip_count_, device);
+    }
+    /// Among the alternatives that the choice is made from: each single device, then the mixture.
+    std::uint32_t alternative_of(const Division& division) const;
 
     Candidate& candidate(const Division& division);
+    static int own_device(const Candidate& c, std::size_t task) {
+        return c.devices[static_cast<std::size_t>(c.step.tasks()[task].region)];
+    }
     void refresh(const Candidate& candidate, scheduler::TaskGraph& graph, bool pinned);
     bool links_are_current(const scheduler::TaskGraph& graph) const;
-    double task_cost(const Task& task, int device) const;
-    /// Predicted time of a substep, corrected.
+    /// Predicted time of a substep.
     double predict(const Division& division);
-    double correction(unsigned mask) const;
-    Division best_single();
     void improve_mixture();
     Division choose();
+    std::optional<Division> probe(const Division& chosen);
+    Division with_one_strip_for(int device, const Division& chosen) const;
     void fill(const Division& division);
-    void place_anywhere(Candidate& candidate);
-
-    void learn_tasks(const FramePlan& plan, const RunTimes& times, int instances);
-    void learn_correction(const FramePlan& plan, const RunTimes& times, int instances);
+    void balance_mixture();
+    double makespan_of(const Division& division, const std::vector<double>& task_times);
 
     Solver& solver_;
     int strip_count_;
     std::vector<Device*> devices_;
     PlanKind kind_;
     std::optional<Division> fixed_;
-    scheduler::CostModel costs_;
-    std::vector<double> latency_;   ///< [from][to]
-    Division mixture_;              ///< the best known one of all devices
-    std::optional<Division> last_;  ///< what the last frame used
+    TimingModel timing_;
+    scheduler::PlanChoice choice_;
+    scheduler::ProbePolicy probes_;
+    Division mixture_;  ///< the best known one of all devices
     std::map<Division, std::unique_ptr<Candidate>> candidates_;
-    std::map<unsigned, std::vector<double>>
-        ratios_;  ///< [mask] measured / planned, last few frames
     FramePlan current_;
+    double last_frame_time_ = 0.0;  ///< [s]
     long frame_ = 0;
     // Working memory.
+    scheduler::InOrder in_order_;
     scheduler::Heft heft_;
     scheduler::LowerBounds bounds_;
     scheduler::Plan trial_;
-    std::vector<double> cost_;
+    std::vector<double> cost_, predicted_;
 };
 
 }  // namespace weft

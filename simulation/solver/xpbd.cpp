@@ -142,9 +142,8 @@ private:
             .updates(*model_.velocities, begin, end);
     }
 
-    /// First what crosses from strip to strip, region by region; the open seams between two regions
-    /// are tasks of their own, and so are the strips beside them: only these are shared between
-    /// devices, and the strips further away hide the exchange.
+    /// First what crosses from strip to strip, then the strips. Only the open seam between two
+    /// regions and the strips beside it are shared between devices, so they are tasks of their own.
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
         for (std::size_t r = 0; r < regions.size(); ++r) {
             add_seams(step, iteration, regions[r].begin, regions[r].end - 1, id(r));
@@ -153,14 +152,21 @@ private:
             add_seams(step, iteration, regions[r].end - 1, regions[r].end, id(r));
         }
         for (std::size_t r = 0; r < regions.size(); ++r) {
-            const Region& region = regions[r];
-            const int near_before = region.cut_before ? region.begin + 1 : region.begin;
-            const int near_behind =
-                region.cut_behind ? std::max(region.end - 1, near_before) : region.end;
-            add_strips(step, iteration, region.begin, near_before, id(r));
-            add_strips(step, iteration, near_behind, region.end, id(r));
-            add_strips(step, iteration, near_before, near_behind, id(r));
+            add_region(step, iteration, regions[r], id(r));
         }
+    }
+
+    /// A region's strips, in an order that hides the exchange. The region before a cut does the
+    /// open seam and its own strip beside it early in an iteration; the region behind does its
+    /// strip half-way: so either may be half an iteration ahead of the other before it has to wait.
+    void add_region(Step& step, int iteration, const Region& region, int id) {
+        const int far_begin = region.cut_before ? region.begin + 1 : region.begin;
+        const int far_end = region.cut_behind ? std::max(region.end - 1, far_begin) : region.end;
+        const int half = region.cut_before ? far_begin + (far_end - far_begin + 1) / 2 : far_end;
+        add_strips(step, iteration, far_end, region.end, id);
+        add_strips(step, iteration, far_begin, half, id);
+        add_strips(step, iteration, region.begin, far_begin, id);
+        add_strips(step, iteration, half, far_end, id);
     }
 
     void add_seams(Step& step, int iteration, int begin, int end, int id) {

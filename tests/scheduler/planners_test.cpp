@@ -8,6 +8,7 @@
 #include "graphs.h"
 #include "reference.h"
 #include "scheduler/heft.h"
+#include "scheduler/in_order.h"
 #include "scheduler/optimal.h"
 #include "scheduler/portfolio.h"
 #include "scheduler/ranks.h"
@@ -257,6 +258,22 @@ TEST(Single, UsesAnotherProcessorOnlyWhereItMust) {
 }
 
 TEST(Planners, UnknownNameGivesNone) { EXPECT_EQ(make_planner("fastest"), nullptr); }
+
+TEST(InOrder, KeepsTheCallersOrderOnEveryProcessor) {
+    for_random_graphs(12, 2, [](const TaskGraph& graph) {
+        InOrder in_order;
+        Plan plan;
+        in_order.plan(graph, plan);
+        EXPECT_EQ(complaint(graph, plan), "");
+        EXPECT_EQ(in_order.makespan(graph), plan.makespan);
+        EXPECT_LE(plan.lower_bound(), plan.makespan);
+        for (ProcessorId p = 0; p < graph.processor_count(); ++p) {
+            const auto tasks = plan.tasks_on(p);
+            EXPECT_TRUE(std::ranges::is_sorted(
+                tasks, {}, [&](TaskId task) { return graph.topological_index(task); }));
+        }
+    });
+}
 
 }  // namespace
 }  // namespace weft::scheduler::test

@@ -1,0 +1,106 @@
+#include "simulation/planning/timing_model.h"
+
+#include <algorithm>
+
+namespace weft {
+
+namespace {
+
+constexpr double kFirstLatency = 50e-6;  ///< [s] until it has been measured
+constexpr double kShortestLatency = 1e-6, kLongestLatency = 5e-3;
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+/// What a task got from other devices.
+struct TimingModel::Arrival {
+    double data = 0.0;   ///< when the last input from another device was made
+    double ready = 0.0;  ///< when it has arrived, as far as is known
+    int from = -1;
+};
+
+TimingModel::TimingModel(std::size_t kinds, std::size_t devices)
+    : devices_(devices),
+      costs_(static_cast<std::uint32_t>(kinds), static_cast<std::uint32_t>(devices)),
+      latency_(devices * devices, kFirstLatency) {}
+
+/// [instance][task]
+std::vector<TimingModel::Arrival> TimingModel::find_arrivals(const Step& step,
+                                                             const scheduler::Plan& plan,
+                                                             const RunTimes& times,
+                                                             int instances) const {
+    const std::size_t count = step.tasks().size();
+    const auto at = [&](int instance, int task) {
+        return static_cast<std::size_t>(instance) * count + static_cast<std::size_t>(task);
+    };
+    std::vector<double> end(count * static_cast<std::size_t>(instances), 0.0);
+    for (const auto& device : times.tasks) {
+        for (const TaskTime& time : device) end[at(time.instance, time.task)] = time.end;
+    }
+    const auto device_of = [&](int task) {
+        return static_cast<int>(plan.placements[static_cast<std::size_t>(task)].processor);
+    };
+    std::vector<Arrival> arrivals(end.size());
+    const auto note = [&](int instance, const Dependency& d, std::size_t from) {
+        const int p = device_of(d.from);
+        const int q = device_of(d.to);
+        if (p == q) return;
+        Arrival& arrival = arrivals[at(instance, d.to)];
+        if (end[from] + latency(p, q) <= arrival.ready) return;
+        arrival = {end[from], end[from] + latency(p, q), p};
+    };
+    for (int i = 0; i < instances; ++i) {
+        for (const Dependency& d : step.dependencies()) note(i, d, at(i, d.from));
+        if (i == 0) continue;
+        for (const Dependency& d : step.carried()) note(i, d, at(i - 1, d.from));
+    }
+    return arrivals;
+}
+
+/// A task's cost runs from when it could have started (its device was free and its data were there)
+/// to its end: so it holds what the device needs to get going. What lies before that, when a device
+/// waited for another one, is the latency between the two.
+std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& plan,
+                                       const RunTimes& times, int instances) {
+    std::vector<double> mean(step.tasks().size(), 0.0);
+    const auto arrivals = find_arrivals(step, plan, times, instances);
+    std::vector<std::vector<double>> waits(latency_.size());
+    for (std::size_t device = 0; device < times.tasks.size(); ++device) {
+        double free = times.start;
+        for (const TaskTime& time : times.tasks[device]) {
+            const auto number = static_cast<std::size_t>(time.task);
+            const Arrival& arrival =
+                arrivals[static_cast<std::size_t>(time.instance) * step.tasks().size() + number];
+            if (arrival.from >= 0 && arrival.data > free) {
+                waits[index(arrival.from, static_cast<int>(device))].push_back(time.start -
+                                                                               arrival.data);
+            }
+            const double could_start = std::min(time.start, std::max(free, arrival.ready));
+            mean[number] += (time.end - could_start) / instances;
+            const Task& task = step.tasks()[number];
+            costs_.observe(static_cast<std::uint32_t>(task.body->kind),
+                           static_cast<std::uint32_t>(device), static_cast<double>(task.items),
+                           time.end - could_start);
+            free = time.end;
+        }
+    }
+    costs_.refit();
+    learn_latencies(waits);
+    return mean;
+}
+
+/// waits  [from][to] what devices waited for each other's data
+void TimingModel::learn_latencies(const std::vector<std::vector<double>>& waits) {
+    for (std::size_t link = 0; link < waits.size(); ++link) {
+        if (waits[link].empty()) continue;
+        const double measured = std::clamp(median(waits[link]), kShortestLatency, kLongestLatency);
+        latency_[link] += 0.3 * (measured - latency_[link]);
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/executor.h"
+#include "scheduler/cost_model.h"
+#include "scheduler/task_graph.h"
+
+namespace weft {
+
+/// What tasks take on each device, and what passes between the end of a task on one device and the
+/// start of one that waits for it on another: learnt from all frames so far. Seconds.
+class TimingModel {
+public:
+    TimingModel(std::size_t kinds, std::size_t devices);
+
+    double task(const Task& task, int device) const {
+        return costs_.predict(static_cast<std::uint32_t>(task.body->kind),
+                              static_cast<std::uint32_t>(device), static_cast<double>(task.items));
+    }
+    double latency(int from, int to) const { return latency_[index(from, to)]; }
+
+    /// Learns from `instances` runs of a step by a plan. Gives what each task took on average.
+    /// [task]
+    std::vector<double> learn(const Step& step, const scheduler::Plan& plan, const RunTimes& times,
+                              int instances);
+
+    const scheduler::CostModel& costs() const { return costs_; }
+    scheduler::CostModel& costs() { return costs_; }
+
+private:
+    struct Arrival;
+
+    std::size_t index(int from, int to) const {
+        return static_cast<std::size_t>(from) * devices_ + static_cast<std::size_t>(to);
+    }
+    std::vector<Arrival> find_arrivals(const Step& step, const scheduler::Plan& plan,
+                                       const RunTimes& times, int instances) const;
+    void learn_latencies(const std::vector<std::vector<double>>& waits);
+
+    std::size_t devices_;
+    scheduler::CostModel costs_;
+    std::vector<double> latency_;  ///< [from][to]
+};
+
+}  // namespace weft
