@@ -138,7 +138,10 @@ void add_bending(LeftOutList& list, const Model& model) {
     list.add("bending",
              asked ? "no edge lies between exactly two triangles"
                    : "no cloth has bend.stiffness above 0",
-             "project_hinges");
+             [](const std::string& kernel) {
+                 return kernel.find("hinge") != std::string::npos ||
+                        kernel.find("bending") != std::string::npos;
+             });
 }
 
 void add_obstacles(LeftOutList& list, const Model& model) {

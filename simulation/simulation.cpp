@@ -64,7 +64,12 @@ Simulation::State Simulation::save() const {
     const auto copy = [](const Buffer<float4>& buffer) {
         return std::vector<float4>(buffer.data(), buffer.data() + buffer.count());
     };
-    return {copy(*model_->positions), copy(*model_->velocities)};
+    State state{copy(*model_->positions), copy(*model_->velocities), {}};
+    for (const BufferStorage* buffer : solver_->state()) {
+        const auto* bytes = static_cast<const std::byte*>(buffer->host());
+        state.solver.emplace_back(bytes, bytes + buffer->bytes());
+    }
+    return state;
 }
 
 void Simulation::restore(const State& state) {
@@ -72,6 +77,12 @@ void Simulation::restore(const State& state) {
     std::copy(state.velocities.begin(), state.velocities.end(), model_->velocities->data());
     executor_->host_wrote(*model_->positions);
     executor_->host_wrote(*model_->velocities);
+    const auto buffers = solver_->state();
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        std::copy(state.solver[b].begin(), state.solver[b].end(),
+                  static_cast<std::byte*>(buffers[b]->host()));
+        executor_->host_wrote(*buffers[b]);
+    }
 }
 
 void Simulation::place() {
@@ -83,6 +94,7 @@ void Simulation::place() {
 void Simulation::fetch() {
     executor_->fetch(*model_->positions);
     executor_->fetch(*model_->velocities);
+    for (BufferStorage* buffer : solver_->state()) executor_->fetch(*buffer);
 }
 
 /// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards.
@@ -200,7 +212,7 @@ RunDescription Simulation::describe() const {
     RunDescription run;
     run.scene_name = scene.name;
     run.scene_text = scene.text;
-    run.settings = {{"method", "xpbd"},
+    run.settings = {{"method", std::string(name_of(scene.solver.method))},
                     {"frames", std::to_string(scene.frames)},
                     {"dt", fmt::format("{}", scene.dt)},
                     {"substeps", std::to_string(scene.substeps)},

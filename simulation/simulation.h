@@ -54,6 +54,7 @@ public:
 private:
     struct State {
         std::vector<float4> positions, velocities;
+        std::vector<std::vector<std::byte>> solver;  ///< as Solver::state()
     };
     State save() const;
     void restore(const State& state);

@@ -14,6 +14,8 @@ public:
 
     int count() const { return layout_.stencils.count(); }
     int arity() const { return layout_.stencils.arity; }
+    /// All of them, in the new order of vertices.
+    const Stencils& stencils() const { return layout_.stencils; }
     /// The vertices of an element, in the new order of vertices.
     std::span<const int> vertices_of(int element) const { return layout_.stencils[element]; }
     /// New element -> element as it was given.

@@ -21,6 +21,11 @@ struct Hinges {
     Hinges(const Stencils& hinges, const Strips& strips, std::span<const Vec3> rest,
            std::span<const double> stiffness);
 
+    /// Of the hinge's corner [sqrt(J) / m].
+    double weight(int hinge, int corner) const {
+        return static_cast<double>(
+            weights[static_cast<std::size_t>(corner * elements.count() + hinge)]);
+    }
     /// [J], in double precision.
     double energy(std::span<const float4> positions) const;
 };

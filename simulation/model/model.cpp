@@ -111,7 +111,9 @@ Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt 
 
     std::vector<Stencils> kinds{all.edges};
     if (bends) kinds.push_back(all.hinges);
-    strips = make_strips(static_cast<int>(count), kinds);
+    StripOptions options;
+    options.extra_levels = is_vertex_wise(scene.solver.method) ? 1 : 0;
+    strips = make_strips(static_cast<int>(count), kinds, options);
     strip_begin_ = std::make_unique<Buffer<int>>("strips", strips.begin.size());
     std::copy(strips.begin.begin(), strips.begin.end(), strip_begin_->data());
     vertices_ = {strip_begin_.get(), 0, 1, strips.count()};

@@ -276,6 +276,7 @@ Scene read_document(const Node& root, const std::string& path) {
     scene.path = path;
     const Node& scene_table = *root.find("scene");
     read_scene_table(scene_table, scene);
+    scene.solver.method = method_named(text_value(*root.find("solver"), "method"));
     scene.solver.iterations = integer_value(*root.find("solver"), "iterations");
     const Node& guard = *root.find("guard");
     scene.guard = {number_value(guard, "max_speed"), number_value(guard, "max_strain")};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "simulation/mesh/vec3.h"
+#include "simulation/scene/method.h"
 #include "simulation/scene/motion.h"
 
 /// A whole scene as plain data. docs/scenes.md says what each value means to its author;
@@ -16,8 +17,6 @@
 /// value that does nothing (damping 0, bend stiffness 0, friction 0, a motion at rest) counts as
 /// not named: the program makes no task, kernel, buffer or dataset for what is absent.
 namespace weft {
-
-enum class Method { kXpbd, kVbd, kSosd, kJpgd };
 
 /// [solver]
 struct SolverSettings {

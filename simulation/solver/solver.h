@@ -20,8 +20,9 @@ public:
     virtual std::vector<const TaskBody*> bodies() const = 0;
     /// Names of the task kinds; TaskBody::kind is an index into it.
     virtual std::vector<std::string> kinds() const = 0;
-    /// Its own buffers, besides the model's.
-    virtual std::vector<const BufferStorage*> buffers() const = 0;
+    /// What the solver carries from substep to substep, besides the model's positions and
+    /// velocities. All zeros at the beginning of a run.
+    virtual std::vector<BufferStorage*> state() { return {}; }
 
     /// The task graph of one substep, with the strips divided into regions at the cuts.
     /// cuts: ascending strips in [1, strip count); region r lies between cuts r - 1 and r.

@@ -60,12 +60,6 @@ public:
         return {"predict", "seams", "strips", "velocities"};
     }
 
-    std::vector<const BufferStorage*> buffers() const override {
-        std::vector<const BufferStorage*> list{&spring_multipliers_};
-        if (hinge_multipliers_) list.push_back(hinge_multipliers_.get());
-        return list;
-    }
-
     Step make_step(std::span<const int> cuts) override {
         const auto regions = regions_between(cuts, model_.strips.count());
         Step step;

@@ -18,14 +18,17 @@ constexpr int kFrames = 4;
 struct TestScene {
     const char* name;
     const std::string& text;
+    Method method;
     /// From cpu/1. When results are meant to change, run this test and copy the new hash from its
     /// message, and say in the change log that results changed.
     const char* hash;
 };
 
 const TestScene kScenes[] = {
-    {"Everything", kEverything, "4f0878c76cf04b3783d0431c625fa8d1"},
-    {"SpringsOnly", kSpringsOnly, "877570edce90c2769df725c608bd8224"},
+    {"Everything", kEverything, Method::kXpbd, "4f0878c76cf04b3783d0431c625fa8d1"},
+    {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
+    {"VbdEverything", kEverything, Method::kVbd, "a199dc997b5b2ecca29dcbf423e0f881"},
+    {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "7ee263a13bb177d64b990eb0d036ec9e"},
 };
 
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {
@@ -42,7 +45,9 @@ std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> o
 
 class Determinism : public testing::TestWithParam<TestScene> {
 protected:
-    Determinism() : scene_(parse_scene(GetParam().text, "test.toml")) {}
+    Determinism() : scene_(parse_scene(GetParam().text, "test.toml")) {
+        scene_.solver.method = GetParam().method;
+    }
 
     std::string hash_on(const std::string& devices, const DeviceOptions& options = {},
                         PlanKind plan = PlanKind::kAuto) {

@@ -1,5 +1,7 @@
 #include "tests/simulation/run/manual_run.h"
 
+#include <cstring>
+
 #include "runtime/tbb/cpu_device.h"
 #include "simulation/output/state_hash.h"
 
@@ -38,6 +40,10 @@ void ManualRun::reset() {
     std::copy(first_velocities_.begin(), first_velocities_.end(), model->velocities->data());
     changed(*model->positions);
     changed(*model->velocities);
+    for (BufferStorage* buffer : solver->state()) {
+        std::memset(buffer->host(), 0, buffer->bytes());
+        changed(*buffer);
+    }
     frame_ = 0;
 }
 

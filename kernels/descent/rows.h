@@ -1,0 +1,66 @@
+#ifndef WEFT_KERNELS_DESCENT_ROWS_H
+#define WEFT_KERNELS_DESCENT_ROWS_H
+
+// What descent methods read and write per vertex: the elements that touch it, and the sums of their
+// gradients and Hessian blocks.
+//
+// Items are vertices in an order of the solver's own. The elements of an item are its row. Rows lie
+// in slices of 8 items (SELL-8, Kreutzer et al. 2014): entry k of an item stands at start + stride
+// k, and the 8 items of a pack are neighbours in memory. All rows of a slice have the same length;
+// short ones end with entries that contribute nothing.
+
+#include "kernels/matrix.h"
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+WEFT_KERNELS_BEGIN
+
+/// slices [2 * items] start of the item's row, length of the rows of its slice
+WEFT_INLINE int row_length(WEFT_GLOBAL const int* slices, item i) {
+    return slices[2 * i.first + 1];
+}
+
+/// Where the k-th entries of the items' rows are.
+WEFT_INLINE item row_entry(WEFT_GLOBAL const int* slices, item i, int stride, int k) {
+    item entry = {slices[2 * i.first] + stride * k, i.count};
+    return entry;
+}
+
+/// dE/dx [N] and d2E/dx^2 [N/m] of one vertex
+typedef struct {
+    real3 gradient;
+    sym3 hessian;
+} slope;
+
+WEFT_INLINE slope no_slope(void) {
+    const real zero = splat(0.0f);
+    slope s = {make3(zero, zero, zero), diagonal_sym(zero)};
+    return s;
+}
+
+/// sums [9 * items] column-major: gradient x, y, z, Hessian xx, xy, xz, yy, yz, zz
+WEFT_INLINE slope load_slope(WEFT_GLOBAL const float* sums, item i, int items) {
+    slope s;
+    s.gradient =
+        make3(load(sums, i), load(sums, column(i, items, 1)), load(sums, column(i, items, 2)));
+    s.hessian = make_sym(load(sums, column(i, items, 3)), load(sums, column(i, items, 4)),
+                         load(sums, column(i, items, 5)), load(sums, column(i, items, 6)),
+                         load(sums, column(i, items, 7)), load(sums, column(i, items, 8)));
+    return s;
+}
+
+WEFT_INLINE void store_slope(WEFT_GLOBAL float* sums, item i, int items, slope s) {
+    store(sums, i, s.gradient.x);
+    store(sums, column(i, items, 1), s.gradient.y);
+    store(sums, column(i, items, 2), s.gradient.z);
+    store(sums, column(i, items, 3), s.hessian.xx);
+    store(sums, column(i, items, 4), s.hessian.xy);
+    store(sums, column(i, items, 5), s.hessian.xz);
+    store(sums, column(i, items, 6), s.hessian.yy);
+    store(sums, column(i, items, 7), s.hessian.yz);
+    store(sums, column(i, items, 8), s.hessian.zz);
+}
+
+WEFT_KERNELS_END
+
+#endif

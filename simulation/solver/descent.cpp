@@ -1,0 +1,103 @@
+#include "simulation/solver/descent.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernels/descent/substep.h"
+#include "kernels/motion.h"
+#include "simulation/solver/slopes.h"
+
+namespace weft {
+
+DescentSubstep::DescentSubstep(Model& model)
+    : model_(model), targets_("targets", static_cast<std::size_t>(model.vertex_count())) {
+    if (model.obstacles) pushed_ = std::make_unique<Buffer<float4>>("pushed", targets_.count());
+}
+
+std::vector<Launch> DescentSubstep::begin() {
+    std::vector<Launch> launches{
+        launch(kernels::begin_descent, model_.vertices(), *model_.positions, *model_.previous,
+               targets_, *model_.velocities, *model_.gravity, static_cast<float>(model_.h),
+               static_cast<float>(model_.h * model_.h), kInstance)};
+    if (model_.moving_pins) model_.moving_pins->add_launches(launches, *model_.positions);
+    return launches;
+}
+
+std::vector<Launch> DescentSubstep::end() {
+    std::vector<Launch> launches;
+    const auto update = [&](auto kernel) {
+        launches.push_back(launch(kernel, model_.vertices(), *model_.positions, *model_.previous,
+                                  *model_.velocities, *model_.gravity, static_cast<float>(model_.h),
+                                  static_cast<float>(1.0 / model_.h), kInstance));
+    };
+    if (model_.damped)
+        update(kernels::update_damped_velocities);
+    else
+        update(kernels::update_velocities);
+    launches.push_back(
+        launch(kernels::keep_deviation, model_.vertices(), *model_.positions, targets_));
+    return launches;
+}
+
+void DescentSubstep::add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    if (!model_.obstacles) return;
+    launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
+    model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous);
+    launches.push_back(
+        launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
+}
+
+void DescentSubstep::add_contact_accesses(Step::Adding& task, int first, int last) {
+    if (!model_.obstacles) return;
+    task.updates(targets_, first, last);
+    if (model_.obstacles->have_friction()) task.reads(*model_.previous, first, last);
+}
+
+std::pair<int, int> DescentSubstep::vertices(int first_strip, int end_strip) const {
+    const auto& begin = model_.strips.begin;
+    return {begin[static_cast<std::size_t>(first_strip)],
+            begin[static_cast<std::size_t>(end_strip)]};
+}
+
+void DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& region) {
+    const auto [first, last] = vertices(region.begin, region.end);
+    step.add(body, 0, region.begin, region.end, region.id)
+        .reads(*model_.velocities, first, last)
+        .updates(*model_.positions, first, last)
+        .updates(*model_.previous, first, last)
+        .updates(targets_, first, last);
+}
+
+void DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
+                             int iteration) {
+    const auto [first, last] = vertices(region.begin, region.end);
+    step.add(body, iteration, region.begin, region.end, region.id)
+        .reads(*model_.positions, first, last)
+        .reads(*model_.previous, first, last)
+        .updates(*model_.velocities, first, last)
+        .updates(targets_, first, last);
+}
+
+Reach::Reach(const Model& model) : lowest_(model.strips.order.size()), highest_(lowest_.size()) {
+    std::iota(lowest_.begin(), lowest_.end(), 0);
+    std::iota(highest_.begin(), highest_.end(), 0);
+    for (const Stencils& kind : all_stencils(model)) {
+        for (int e = 0; e < kind.count(); ++e) {
+            const auto [low, high] = std::ranges::minmax(kind[e]);
+            for (const int v : kind[e]) {
+                int& lowest = lowest_[static_cast<std::size_t>(v)];
+                int& highest = highest_[static_cast<std::size_t>(v)];
+                lowest = std::min(lowest, low);
+                highest = std::max(highest, high);
+            }
+        }
+    }
+}
+
+std::pair<int, int> Reach::around(int begin, int end) const {
+    if (begin >= end) return {begin, end};
+    return {*std::min_element(lowest_.begin() + begin, lowest_.begin() + end),
+            *std::max_element(highest_.begin() + begin, highest_.begin() + end) + 1};
+}
+
+}  // namespace weft

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulation/model/model.h"
+#include "simulation/solver/vertex_items.h"
+
+namespace weft {
+
+/// What a launch that gathers slopes works on.
+struct SlopeTarget {
+    const Segments& segments;  ///< of the items
+    Buffer<float4>& positions;
+    Buffer<int>& vertices;  ///< of the items
+    Buffer<float>& sums;    ///< [9 * items], see kernels/descent/rows.h
+    int item_count = 0;
+    int fresh = 0;  ///< 1: overwrites what stands in the sums
+};
+
+/// One family of elements, seen from the vertices: per vertex a row of what touches it.
+class SlopeFamily {
+public:
+    virtual ~SlopeFamily() = default;
+    virtual Launch gather(const SlopeTarget& target) = 0;
+};
+
+std::unique_ptr<SlopeFamily> make_spring_slopes(const Springs& springs, const VertexItems& items);
+std::unique_ptr<SlopeFamily> make_bending_slopes(const Hinges& hinges, const VertexItems& items);
+
+/// Gradient and Hessian block of every vertex, by one launch per family that the model has.
+class Slopes {
+public:
+    Slopes(const Model& model, VertexItems& items);
+
+    /// One launch per family, over the items of a phase.
+    std::vector<Launch> gather(Phase phase, Buffer<float4>& positions);
+    Buffer<float>& sums() { return sums_; }
+
+private:
+    VertexItems& items_;
+    Buffer<float> sums_;
+    std::vector<std::unique_ptr<SlopeFamily>> families_;
+};
+
+/// All elements of the model, in new vertices: who touches whom.
+std::vector<Stencils> all_stencils(const Model& model);
+
+}  // namespace weft

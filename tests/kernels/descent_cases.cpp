@@ -1,0 +1,141 @@
+#include "kernels/descent/gather_bending.h"
+#include "kernels/descent/gather_springs.h"
+#include "kernels/descent/substep.h"
+#include "kernels/vbd/solve.h"
+#include "tests/kernels/kernel_case.h"
+
+namespace weft::test {
+namespace {
+
+constexpr int kRow = 3;  ///< entries per row
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Positions of twice as many vertices as items: the neighbours lie behind the items' own.
+Buffer<float4>& add_positions(KernelCase& c) {
+    auto& positions = c.add<float4>("positions", 2 * c.items);
+    for (float4& x : positions.span()) {
+        x = c.random.point(1.0f);
+        x.w = c.random.integer(0, 5) == 0 ? 0.0f : c.random.real(0.1f, 1e4f);
+    }
+    return positions;
+}
+
+Buffer<int>& add_vertices(KernelCase& c) {
+    auto& vertices = c.add<int>("vertices", c.items);
+    const std::vector<int> order = c.random.permutation(c.items);
+    std::copy(order.begin(), order.end(), vertices.data());
+    return vertices;
+}
+
+/// Rows of equal length, entry k of item i at i + items * k: right for any range of items.
+Buffer<int>& add_slices(KernelCase& c) {
+    auto& slices = c.add<int>("slices", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        slices[at(2 * i)] = i;
+        slices[at(2 * i + 1)] = kRow;
+    }
+    return slices;
+}
+
+/// Each item's neighbours; in degenerate cases the item's own vertex.
+Buffer<int>& add_others(KernelCase& c, const Buffer<int>& vertices) {
+    auto& others = c.add<int>("others", kRow * c.items);
+    for (int e = 0; e < kRow * c.items; ++e) {
+        const bool self = c.flavour == Flavour::kDegenerate && e % 2 == 0;
+        others[at(e)] =
+            self ? vertices[at(e % c.items)] : c.items + c.random.integer(0, c.items - 1);
+    }
+    return others;
+}
+
+Buffer<float>& add_reals(KernelCase& c, const std::string& name, int count, float low, float high) {
+    auto& reals = c.add<float>(name, count);
+    for (float& value : reals.span()) value = c.random.real(low, high);
+    return reals;
+}
+
+void springs_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& vertices = add_vertices(c);
+    auto& slices = add_slices(c);
+    auto& others = add_others(c, vertices);
+    auto& material = add_reals(c, "material", 2 * kRow * c.items, 0.0f, 2.0f);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::gather_springs, c.segments, positions, vertices, slices, others,
+                      material, sums, c.items, kRow * c.items, c.items, c.items % 2);
+}
+
+void bending_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& vertices = add_vertices(c);
+    auto& slices = add_slices(c);
+    auto& others = add_others(c, vertices);
+    auto& weights = add_reals(c, "weights", kRow * c.items, -1.0f, 1.0f);
+    auto& diagonal = add_reals(c, "diagonal", c.items, 0.0f, 5.0f);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::gather_bending, c.segments, positions, vertices, slices, others,
+                      weights, diagonal, sums, c.items, c.items, c.items % 2);
+}
+
+void solve_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    for (float4& x : targets.span()) x = c.random.point(1.0f);
+    auto& vertices = add_vertices(c);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    for (int i = 0; i < c.items; ++i) {
+        for (const int diagonal : {3, 6, 8}) {
+            sums[at(i + diagonal * c.items)] = c.flavour == Flavour::kRandom ? 3.0f : 0.0f;
+        }
+        for (int k = 3; k < 9; ++k) {
+            if (c.flavour == Flavour::kDegenerate && i % 2 == 0) sums[at(i + k * c.items)] = 0.0f;
+        }
+    }
+    c.launch = launch(kernels::solve_vertices, c.segments, positions, targets, vertices, sums,
+                      c.items, 1e2f);
+}
+
+void begin_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& previous = c.add<float4>("previous", 2 * c.items);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    auto& velocities = c.add<float4>("velocities", 2 * c.items);
+    for (float4& d : targets.span()) d = c.random.point(2e-3f);
+    for (float4& v : velocities.span()) v = c.random.point(3.0f);
+    auto& gravity = c.add<float4>("gravity", 2);
+    if (c.flavour == Flavour::kRandom) gravity[1] = {1.0f, -9.81f, 0.5f, 0.0f};
+    c.launch = launch(kernels::begin_descent, c.segments, positions, previous, targets, velocities,
+                      gravity, 0.01f, 1e-4f, kInstance);
+}
+
+void keep_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    for (float4& x : targets.span()) x = c.random.point(1.0f);
+    c.launch = launch(kernels::keep_deviation, c.segments, positions, targets);
+}
+
+void copy_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& copy = c.add<float4>("copy", 2 * c.items);
+    c.launch = launch(kernels::copy_positions, c.segments, positions, copy);
+}
+
+void push_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& pushed = c.add<float4>("pushed", 2 * c.items);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    for (float4& x : pushed.span()) x = c.random.point(1.0f);
+    for (float4& x : targets.span()) x = c.random.point(1.0f);
+    c.launch = launch(kernels::push_targets, c.segments, positions, pushed, targets);
+}
+
+const bool added = add_case("gather_springs", springs_case) &&
+                   add_case("gather_bending", bending_case) &&
+                   add_case("solve_vertices", solve_case) &&
+                   add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
+                   add_case("copy_positions", copy_case) && add_case("push_targets", push_case);
+
+}  // namespace
+}  // namespace weft::test

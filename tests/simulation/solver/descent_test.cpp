@@ -1,0 +1,85 @@
+// The methods that minimise the step's incremental potential do so, down to its minimum.
+
+#include <gtest/gtest.h>
+
+#include "simulation/model/convert.h"
+#include "simulation/reference/newton.h"
+#include "simulation/scene/read_scene.h"
+#include "tests/simulation/run/manual_run.h"
+
+namespace weft::test {
+namespace {
+
+const std::string kSheet = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+[[cloth]]
+grid = { size = [1.0, 1.4], resolution = [15, 21] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+bend = { stiffness = 1.0e-2 }
+pins = { corners = ["x-z-", "x+z-"] }
+)";
+
+/// One substep of the sheet, stretched, bent and sheared at its start.
+class OneStep {
+public:
+    OneStep(Method method, int iterations, const std::string& text = kSheet)
+        : run_(scene(method, iterations, text)) {
+        auto& x = *run_.model->positions;
+        for (float4& p : x.span()) {
+            p = {1.1f * p.x + 0.05f * p.z, 0.1f * p.x * p.x - 0.05f * p.z,
+                 0.95f * p.z + 0.05f * p.x * p.z, p.w};
+        }
+        run_.changed(x);
+        potential_ = std::make_unique<IncrementalPotential>(*run_.model, 0.0);
+    }
+    double start_energy() const { return potential_->energy(potential_->predicted()); }
+    Minimum minimum() { return minimise(*potential_, potential_->predicted()); }
+    double energy_after_run() {
+        run_.run_substeps(1);
+        std::vector<Vec3> x;
+        for (const float4& p : run_.model->positions->span()) x.push_back(to_vec3(p));
+        return potential_->energy(x);
+    }
+
+private:
+    static Scene scene(Method method, int iterations, const std::string& text) {
+        Scene scene = parse_scene(text, "test.toml");
+        scene.solver.method = method;
+        scene.solver.iterations = iterations;
+        return scene;
+    }
+    ManualRun run_;
+    std::unique_ptr<IncrementalPotential> potential_;
+};
+
+class Descent : public testing::TestWithParam<Method> {};
+
+TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
+    OneStep reference(GetParam(), 1);
+    const Minimum minimum = reference.minimum();
+    ASSERT_LT(minimum.certificate.relative_gap, kSolvedGap);
+    const double whole = minimum.start_energy - minimum.energy;
+    ASSERT_GT(whole, 0.1 * minimum.start_energy) << "there is something to do";
+    double last = 1.0;
+    for (const int iterations : {1, 2, 4, 8, 16, 32, 64, 128, 256, 512}) {
+        const double energy = OneStep(GetParam(), iterations).energy_after_run();
+        const double error = (energy - minimum.energy) / whole;
+        EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
+        EXPECT_LT(error, last + 1e-6) << iterations << " iterations";
+        last = error;
+        RecordProperty("after_" + std::to_string(iterations), std::to_string(error));
+    }
+    EXPECT_LT(last, 1e-3);
+}
+
+std::string name_of_method(const testing::TestParamInfo<Method>& info) {
+    return std::string(name_of(info.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Descent, testing::Values(Method::kVbd), name_of_method);
+
+}  // namespace
+}  // namespace weft::test
