@@ -28,6 +28,9 @@ public:
         group(step.carried(), carried_);
     }
 
+    /// The device that was last called.
+    int at() const { return at_; }
+
     void submit(int instance) {
         std::swap(previous_, current_);
         for (const int task : order_) submit(instance, task);
@@ -64,6 +67,7 @@ private:
         return model == MemoryModel::kHost ? 0 : device + 1;
     }
     DeviceStream& stream(int device) {
+        at_ = device;
         return *executor_.streams_[static_cast<std::size_t>(device)];
     }
 
@@ -155,10 +159,15 @@ private:
     std::vector<Completion*> waits_;
     std::vector<Copy> copies_;
     std::vector<std::size_t> hop_count_;  ///< [device]
+    int at_ = 0;
 };
 
 Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies)
-    : devices_(std::move(devices)), epoch_(now()) {
+    : Executor(std::move(devices), bodies, now()) {}
+
+Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies,
+                   double epoch)
+    : devices_(std::move(devices)), epoch_(epoch) {
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
         if (submission_cores_.empty()) submission_cores_ = device->info().cores;
@@ -181,35 +190,51 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
     times.start = clock();
     Run run(*this, step, plan);
     std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
-    try {
-        for (int i = 0; i < instances; ++i) {
+    for (int i = 0; i < instances; ++i) {
+        try {
             run.submit(first_instance + i);
-            for (const auto& stream : streams_) stream->flush();
+        } catch (const RunError& error) {
+            drain();
+            throw DeviceLost(run.at(), error.what());
         }
         for (std::size_t d = 0; d < streams_.size(); ++d) {
-            streams_[d]->finish(times.tasks.emplace_back(), copy_times[d]);
+            on(d, [&] { streams_[d]->flush(); });
         }
-    } catch (...) {
-        drain();
-        throw;
+    }
+    times.tasks.resize(streams_.size());
+    for (std::size_t d = 0; d < streams_.size(); ++d) {
+        on(d, [&] { streams_[d]->finish(times.tasks[d], copy_times[d]); });
     }
     times.end = clock();
     times.copies = run.copies(copy_times);
     return times;
 }
 
+template <class Call>
+void Executor::on(std::size_t device, Call call) {
+    try {
+        call();
+    } catch (const RunError& error) {
+        drain();
+        throw DeviceLost(static_cast<int>(device), error.what());
+    }
+}
+
 /// After a failure: streams wait for each other's completions, so all have to end before one goes.
 void Executor::drain() {
     std::vector<TaskTime> tasks;
     std::vector<TimeSpan> copies;
-    for (const auto& stream : streams_) stream->flush();
-    for (const auto& stream : streams_) {
-        try {
-            stream->finish(tasks, copies);
-        } catch (const std::exception&) {
-            // The first error is the one to report.
+    const auto each = [&](auto call) {
+        for (const auto& stream : streams_) {
+            try {
+                call(*stream);
+            } catch (const std::exception&) {
+                // The first error is the one to report.
+            }
         }
-    }
+    };
+    each([](DeviceStream& stream) { stream.flush(); });
+    each([&](DeviceStream& stream) { stream.finish(tasks, copies); });
 }
 
 void Executor::host_wrote(BufferStorage& buffer) {
@@ -217,7 +242,7 @@ void Executor::host_wrote(BufferStorage& buffer) {
     const ElementSpan whole{0, buffer.count()};
     for (std::size_t d = 0; d < devices_.size(); ++d) {
         if (devices_[d]->info().memory == MemoryModel::kHost) continue;
-        streams_[d]->to_device(buffer, whole, {})->wait();
+        on(d, [&] { streams_[d]->to_device(buffer, whole, {})->wait(); });
     }
 }
 
@@ -226,8 +251,8 @@ void Executor::fetch(BufferStorage& buffer) {
     for (const auto& [access, missing] : memory_.missing_at_host(buffer)) {
         const ElementSpan span = elements_of(access, missing.interval);
         if (span.begin == span.end) continue;
-        DeviceStream& source = *streams_[static_cast<std::size_t>(missing.source - 1)];
-        source.to_host(buffer, span, {})->wait();
+        const auto source = static_cast<std::size_t>(missing.source - 1);
+        on(source, [&] { streams_[source]->to_host(buffer, span, {})->wait(); });
         memory_.arrived(access, missing.interval, 0, nullptr);
     }
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/device.h"
+#include "runtime/error.h"
 #include "runtime/memory_map.h"
 #include "scheduler/plan.h"
 
@@ -30,6 +31,14 @@ struct RunTimes {
     std::vector<CopyRecord> copies;
 };
 
+/// A device failed for good; the others have ended what they had to do.
+class DeviceLost : public RunError {
+public:
+    DeviceLost(int lost, const std::string& what) : RunError(what), device(lost) {}
+
+    const int device;  ///< its number in the executor
+};
+
 /// Runs plans: every device works through its part of the tasks, in the plan's order, as soon as
 /// what they depend on is done. Nothing spins. Everything is submitted ahead, so that devices wait
 /// for each other only, never for the host.
@@ -37,24 +46,31 @@ class Executor {
 public:
     /// bodies  all that steps may use. Devices, bodies and their buffers must outlive the executor.
     Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies);
+    /// With the clock of an executor that this one takes over from.
+    Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies, double epoch);
     ~Executor();
 
     /// Runs the step `instances` times in a row by one plan (processors are the devices, in order)
-    /// and waits for the end. Instances are numbered from first_instance. Throws RunError when a
+    /// and waits for the end. Instances are numbered from first_instance. Throws DeviceLost when a
     /// device fails.
     RunTimes run(const Step& step, const scheduler::Plan& plan, int instances,
                  int first_instance = 0);
 
-    /// To be called after the host has written into a buffer that devices have.
+    /// To be called after the host has written into a buffer that devices have. Throws DeviceLost,
+    /// as does fetch().
     void host_wrote(BufferStorage& buffer);
     /// Makes the host's copy of a buffer current, for data that steps wrote.
     void fetch(BufferStorage& buffer);
 
-    /// Seconds since the executor was made.
+    /// Seconds since the epoch: since the executor was made, or the first of a row of them.
     double clock() const;
+    double epoch() const { return epoch_; }  ///< in steady-clock seconds
 
 private:
     class Run;
+    /// Calls on a device's stream; what it throws becomes DeviceLost.
+    template <class Call>
+    void on(std::size_t device, Call call);
     void drain();
 
     std::vector<Device*> devices_;

@@ -4,22 +4,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include "runtime/clock.h"
 #include "runtime/error.h"
+#include "runtime/executor.h"
 #include "runtime/tbb/cpu_device.h"
 #include "simulation/diagnostics.h"
 #include "simulation/output/state_hash.h"
 #include "simulation/planning/frame_planner.h"
+#include "simulation/planning/saved_costs.h"
 
 namespace weft {
 
 namespace {
-
-std::vector<Device*> pointers(const std::vector<std::unique_ptr<Device>>& devices) {
-    std::vector<Device*> list;
-    for (const auto& device : devices) list.push_back(device.get());
-    return list;
-}
 
 /// xyz of a buffer in scene order.
 std::vector<float> in_scene_order(const Model& model, const Buffer<float4>& buffer) {
@@ -47,15 +45,19 @@ scheduler::Plan serial_plan(std::size_t task_count) {
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const SimulationOptions& options, Warnings& warnings)
-    : devices_(open_devices(options.devices, options.device_options)),
+    : Simulation(scene, open_devices(options.devices, options.device_options), options, warnings) {}
+
+Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> devices,
+                       const SimulationOptions& options, Warnings& warnings)
+    : options_(options),
+      devices_(std::move(devices)),
+      active_(devices_.size()),
       model_(std::make_unique<Model>(scene, warnings)),
       solver_(make_solver(*model_)) {
+    std::iota(active_.begin(), active_.end(), 0);
     place();
-    const auto bodies = solver_->bodies();
-    executor_ = std::make_unique<Executor>(pointers(devices_), bodies);
-    planner_ = std::make_unique<FramePlanner>(*solver_, model_->strips.count(), pointers(devices_),
-                                              options.plan, options.division);
-    calibrate();
+    open_executor();
+    calibrate(restore_costs());
 }
 
 Simulation::~Simulation() = default;
@@ -72,9 +74,13 @@ Simulation::State Simulation::save() const {
     return state;
 }
 
-void Simulation::restore(const State& state) {
+void Simulation::write(const State& state) {
     std::copy(state.positions.begin(), state.positions.end(), model_->positions->data());
     std::copy(state.velocities.begin(), state.velocities.end(), model_->velocities->data());
+}
+
+void Simulation::restore(const State& state) {
+    write(state);
     executor_->host_wrote(*model_->positions);
     executor_->host_wrote(*model_->velocities);
     const auto buffers = solver_->state();
@@ -97,14 +103,54 @@ void Simulation::fetch() {
     for (BufferStorage* buffer : solver_->state()) executor_->fetch(*buffer);
 }
 
+std::vector<Device*> Simulation::active_devices() const {
+    std::vector<Device*> list;
+    for (const int number : active_)
+        list.push_back(devices_[static_cast<std::size_t>(number)].get());
+    return list;
+}
+
+/// An executor and a planner for the devices that are there.
+void Simulation::open_executor() {
+    const auto bodies = solver_->bodies();
+    const double epoch = executor_ ? executor_->epoch() : now();
+    executor_.reset();
+    executor_ = std::make_unique<Executor>(active_devices(), bodies, epoch);
+    const bool all = active_.size() == devices_.size();
+    planner_ =
+        std::make_unique<FramePlanner>(*solver_, model_->strips.count(), active_devices(),
+                                       options_.plan, all ? options_.division : std::nullopt);
+}
+
+bool Simulation::restore_costs() {
+    if (options_.cost_file.empty()) return false;
+    const SavedCosts saved(options_.cost_file);
+    if (!saved.restore(solver_->bodies(), active_devices(), options_.device_options.strict_math,
+                       planner_->timing())) {
+        return false;
+    }
+    planner_->balance_mixture();
+    return true;
+}
+
+void Simulation::save_costs() const {
+    constexpr int kEnoughFrames = 5;  // the first ones are no rule
+    if (options_.cost_file.empty() || frame_ < kEnoughFrames) return;
+    SavedCosts saved(options_.cost_file);
+    saved.save(solver_->bodies(), active_devices(), options_.device_options.strict_math,
+               planner_->timing());
+}
+
 /// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards.
-void Simulation::calibrate() {
+/// costs_known: only what compiles, loads and pages in is left to do.
+void Simulation::calibrate(bool costs_known) {
     const State start = save();
     const int instances = std::min(model_->scene.substeps, 2);
-    constexpr int kRounds = 2;  // the first compiles, loads and pages in
-    for (int round = 0; round < kRounds; ++round) {
+    const int rounds = costs_known ? 1 : 2;
+    for (int round = 0; round < rounds; ++round) {
         for (const FramePlan& plan : planner_->calibration()) {
-            planner_->learn(plan, executor_->run(*plan.step, plan.plan, instances), instances);
+            const RunTimes times = executor_->run(*plan.step, plan.plan, instances);
+            if (!costs_known) planner_->learn(plan, times, instances);
             restore(start);
         }
     }
@@ -112,6 +158,36 @@ void Simulation::calibrate() {
 
 FrameRecord Simulation::advance() {
     const State start = save();
+    while (true) {
+        try {
+            return advance_from(start);
+        } catch (const DeviceLost& lost) {
+            go_on_without(lost, start);
+        }
+    }
+}
+
+/// The state in the middle of a frame is lost with the device, so the frame begins again.
+void Simulation::go_on_without(const DeviceLost& lost, const State& start) {
+    const int number = active_[static_cast<std::size_t>(lost.device)];
+    const std::string name = devices_[static_cast<std::size_t>(number)]->info().name;
+    losses_.push_back({number, frame_, lost.what()});
+    active_.erase(active_.begin() + lost.device);
+    write(start);
+    if (active_.empty()) {
+        throw RunError(fmt::format("device {} was lost in frame {}, and there is no other: {}",
+                                   name, frame_, lost.what()));
+    }
+    std::vector<int> kept(active_.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    for (int& k : kept) k += k >= lost.device ? 1 : 0;
+    const TimingModel learnt = planner_->timing();
+    open_executor();
+    planner_->timing().inherit(learnt, kept);
+    planner_->balance_mixture();
+}
+
+FrameRecord Simulation::advance_from(const State& start) {
     place();
     const FramePlan& plan = planner_->next();
     const int substeps = model_->scene.substeps;
@@ -137,37 +213,39 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
     frame.plan_time = plan.plan_time;
 
     const auto& tasks = plan.step->tasks();
-    for (std::size_t d = 0; d < devices_.size(); ++d) {
+    const auto number = [&](auto d) { return u32(active_[static_cast<std::size_t>(d)]); };
+    frame.busy.resize(devices_.size(), 0.0);
+    for (std::size_t d = 0; d < active_.size(); ++d) {
         double busy = 0.0;
         for (const TaskTime& t : times.tasks[d]) {
             busy += t.end - t.start;
             const auto items =
                 static_cast<std::uint64_t>(tasks[static_cast<std::size_t>(t.task)].items);
-            frame.executions.push_back({u32(t.instance), u32(t.task), static_cast<std::uint32_t>(d),
-                                        items, t.start, t.end});
+            frame.executions.push_back(
+                {u32(t.instance), u32(t.task), number(d), items, t.start, t.end});
         }
-        frame.busy.push_back(busy);
+        frame.busy[number(d)] = busy;
         std::uint32_t order = 0;
         for (const scheduler::TaskId id : plan.plan.tasks_on(static_cast<std::uint32_t>(d))) {
             const Task& task = tasks[id];
             const auto& placed = plan.plan.placements[id];
-            frame.plan.push_back(
-                {id, u32(task.body->kind), u32(task.iteration), u32(task.first_strip),
-                 u32(task.end_strip - task.first_strip), static_cast<std::uint32_t>(d), order++,
-                 static_cast<std::uint64_t>(task.items), placed.start, placed.end});
+            frame.plan.push_back({id, u32(task.body->kind), u32(task.iteration),
+                                  u32(task.first_strip), u32(task.end_strip - task.first_strip),
+                                  number(d), order++, static_cast<std::uint64_t>(task.items),
+                                  placed.start, placed.end});
         }
     }
     const auto& costs = planner_->timing().costs();
     for (std::uint32_t kind = 0; kind < costs.kinds(); ++kind) {
         for (std::uint32_t d = 0; d < costs.devices(); ++d) {
             const auto& fit = costs.fit(kind, d);
-            frame.costs.push_back({kind, d, fit.cost.fixed, fit.cost.per_item, fit.frames});
+            frame.costs.push_back({kind, number(d), fit.cost.fixed, fit.cost.per_item, fit.frames});
         }
     }
     for (const CopyRecord& copy : times.copies) {
         frame.transferred_bytes += copy.bytes;
-        frame.transfers.push_back({u32(copy.instance), u32(copy.task), u32(copy.from), u32(copy.to),
-                                   copy.bytes, copy.start, copy.end});
+        frame.transfers.push_back({u32(copy.instance), u32(copy.task), number(copy.from),
+                                   number(copy.to), copy.bytes, copy.start, copy.end});
     }
 
     const Energies energies = measure_energies(*model_, frame.sim_time);

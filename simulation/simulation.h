@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 
 namespace weft {
 
+class DeviceLost;
 class Executor;
 class FramePlanner;
 struct FramePlan;
@@ -23,6 +25,14 @@ struct SimulationOptions {
     PlanKind plan = PlanKind::kAuto;
     DeviceOptions device_options;
     std::optional<Division> division;  ///< fixed instead of planned
+    std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
+};
+
+/// A device that failed in mid-run and was left out from there on.
+struct LostDevice {
+    int device = 0;  ///< its number in Simulation::devices()
+    int frame = 0;
+    std::string why;
 };
 
 /// A scene on devices, frame by frame. The results do not depend on the devices or on the plans.
@@ -30,12 +40,20 @@ class Simulation {
 public:
     /// Throws UserError for a scene or devices that cannot be had.
     Simulation(const Scene& scene, const SimulationOptions& options, Warnings& warnings);
+    /// On devices that the caller has opened; options.devices is not used.
+    Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> devices,
+               const SimulationOptions& options, Warnings& warnings);
     ~Simulation();
 
     /// Simulates the next frame: plans, runs all substeps, checks the state, measures energies.
-    /// Throws RunError if a device failed or the state went bad; then the state is that of the
-    /// frame's start.
+    /// If a device fails, the frame is done again from its start on the others, with the same
+    /// result. Throws RunError if none is left, or the state went bad; then the state is that of
+    /// the frame's start.
     FrameRecord advance();
+    /// The devices that failed so far.
+    const std::vector<LostDevice>& losses() const { return losses_; }
+    /// Keeps what was learnt about the devices for later runs, in options.cost_file.
+    void save_costs() const;
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }
@@ -57,17 +75,27 @@ private:
         std::vector<std::vector<std::byte>> solver;  ///< as Solver::state()
     };
     State save() const;
+    void write(const State& state);
     void restore(const State& state);
 
     double frame_time() const { return frame_ * model_->scene.dt; }
     void place();
-    void calibrate();
+    void calibrate(bool costs_known);
     void fetch();
+    std::vector<Device*> active_devices() const;
+    void open_executor();
+    bool restore_costs();
+    FrameRecord advance_from(const State& start);
+    void go_on_without(const DeviceLost& lost, const State& start);
     FrameRecord record(const FramePlan& plan, const RunTimes& times) const;
     /// Runs the frame again from its start, task by task, to the first bad value; throws.
     [[noreturn]] void diagnose(const State& start);
 
+    SimulationOptions options_;
     std::vector<std::unique_ptr<Device>> devices_;
+    /// Numbers of those that are still there: the executor's and the planner's devices.
+    std::vector<int> active_;
+    std::vector<LostDevice> losses_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Executor> executor_;

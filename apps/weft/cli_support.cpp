@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "runtime/cache_folder.h"
 #include "runtime/error.h"
 #include "simulation/scene/near_miss.h"
 
@@ -106,6 +107,9 @@ SimulationOptions RunOptions::simulation() const {
     options.device_options.strict_math = math == "strict";
     options.device_options.memory = memory_model(memory);
     if (!strips.empty()) options.division = Division{strips};
+    if (const auto folder = cache_folder(); !folder.empty()) {
+        options.cost_file = folder / "costs.json";
+    }
     return options;
 }
 

@@ -133,6 +133,7 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     Progress progress("frame", scene_.frames, options_.quiet);
     while (frames_done() < scene_.frames && notice.signal() == 0) {
         FrameRecord record = simulation_->advance();
+        say_losses();
         summary_->add(record);
         if (trace_) trace_->append(std::move(record));
         if (geometry_) append_geometry();
@@ -140,8 +141,24 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     }
 }
 
+/// Even where talk is not wanted: the rest of the run is slower than was asked for.
+void SceneRun::say_losses() {
+    const auto& losses = simulation_->losses();
+    for (; losses_said_ < losses.size(); ++losses_said_) {
+        std::cerr << fmt::format("weft: warning: {}\n", text_of(losses[losses_said_]));
+    }
+}
+
+std::string SceneRun::text_of(const LostDevice& lost) const {
+    const auto& device = simulation_->devices()[static_cast<std::size_t>(lost.device)];
+    return fmt::format("device {} ({}) was lost in frame {}, the others go on without it: {}",
+                       lost.device, device->info().name, lost.frame, lost.why);
+}
+
 RunSummary SceneRun::finish() {
+    simulation_->save_costs();
     RunSummary summary = summary_->summary();
+    for (const LostDevice& lost : simulation_->losses()) summary.losses.push_back(text_of(lost));
     summary.finished = frames_done() == scene_.frames;
     summary.state_hash = simulation_->hash();
     if (trace_) {

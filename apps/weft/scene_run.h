@@ -33,6 +33,8 @@ private:
     void say_what_runs() const;
     void open_geometry();
     void append_geometry();
+    void say_losses();
+    std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;
     Scene scene_;
@@ -42,6 +44,7 @@ private:
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
+    std::size_t losses_said_ = 0;
 };
 
 }  // namespace weft

@@ -137,6 +137,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["ms_per_frame"] = 1e3 * summary.frame_median;
     json["ms_p95"] = 1e3 * summary.frame_p95;
     json["devices"] = devices;
+    if (!summary.losses.empty()) json["lost_devices"] = summary.losses;
     json["utilisation"] = summary.utilisation;
     json["planned_ms"] = 1e3 * summary.planned_makespan;
     json["measured_ms"] = 1e3 * summary.measured_makespan;
@@ -163,6 +164,7 @@ std::string to_text(const RunSummary& summary) {
          fmt::format("median {:.3f} ms, p95 {:.3f} ms", 1e3 * summary.frame_median,
                      1e3 * summary.frame_p95));
     text += devices_text(summary);
+    for (const std::string& loss : summary.losses) line(text, "lost", loss);
     line(text, "utilisation", fmt::format("{:.1f} %", 100.0 * summary.utilisation));
     line(text, "makespan",
          fmt::format("planned {:.3f} ms, measured {:.3f} ms (median error {:.1f} %), lower bound "

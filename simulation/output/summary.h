@@ -36,8 +36,9 @@ struct RunSummary {
     double utilisation = 0.0;             ///< mean over devices
     std::vector<Device> devices;
     std::vector<std::pair<std::string, double>> energies;  ///< at the end [J]; the last is "total"
-    bool finished = false;                                 ///< all frames of the scene are done
-    std::string state_hash;  ///< after the last frame; empty: not known
+    std::vector<std::string> losses;  ///< devices that failed in mid-run, and why
+    bool finished = false;            ///< all frames of the scene are done
+    std::string state_hash;           ///< after the last frame; empty: not known
     std::vector<std::pair<std::string, std::string>> files;  ///< what, and its path
 };
 

@@ -243,7 +243,6 @@ double FramePlanner::makespan_of(const Division& division, const std::vector<dou
     return in_order_.makespan(c.pinned);
 }
 
-/// Calibration tells the devices' speeds apart; from there, the division is improved step by step.
 void FramePlanner::balance_mixture() {
     std::vector<double> speeds;
     for (int d = 0; d < device_count(); ++d) {

@@ -44,6 +44,10 @@ public:
     void learn(const FramePlan& plan, const RunTimes& times, int instances);
 
     const TimingModel& timing() const { return timing_; }
+    /// Starts from what is known already instead of from calibration().
+    TimingModel& timing() { return timing_; }
+    /// Divides the mixture by the speeds known now; further steps are small.
+    void balance_mixture();
 
 private:
     /// A division's step and its two graphs.
@@ -77,7 +81,6 @@ private:
     std::optional<Division> probe(const Division& chosen);
     Division with_one_strip_for(int device, const Division& chosen) const;
     void fill(const Division& division);
-    void balance_mixture();
     double makespan_of(const Division& division, const std::vector<double>& task_times);
 
     Solver& solver_;

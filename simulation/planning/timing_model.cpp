@@ -29,6 +29,19 @@ TimingModel::TimingModel(std::size_t kinds, std::size_t devices)
       costs_(static_cast<std::uint32_t>(kinds), static_cast<std::uint32_t>(devices)),
       latency_(devices * devices, kFirstLatency) {}
 
+void TimingModel::inherit(const TimingModel& other, const std::vector<int>& numbers) {
+    for (std::size_t d = 0; d < numbers.size(); ++d) {
+        const auto theirs = static_cast<std::uint32_t>(numbers[d]);
+        for (std::uint32_t kind = 0; kind < costs_.kinds(); ++kind) {
+            costs_.restore(kind, static_cast<std::uint32_t>(d), other.costs_.fit(kind, theirs));
+        }
+        for (std::size_t to = 0; to < numbers.size(); ++to) {
+            set_latency(static_cast<int>(d), static_cast<int>(to),
+                        other.latency(numbers[d], numbers[to]));
+        }
+    }
+}
+
 /// [instance][task]
 std::vector<TimingModel::Arrival> TimingModel::find_arrivals(const Step& step,
                                                              const scheduler::Plan& plan,

@@ -19,6 +19,9 @@ public:
                               static_cast<std::uint32_t>(device), static_cast<double>(task.items));
     }
     double latency(int from, int to) const { return latency_[index(from, to)]; }
+    void set_latency(int from, int to, double seconds) { latency_[index(from, to)] = seconds; }
+    /// Takes over what another model knows of its devices `numbers`, in this order.
+    void inherit(const TimingModel& other, const std::vector<int>& numbers);
 
     /// Learns from `instances` runs of a step by a plan. Gives what each task took on average.
     /// [task]
