@@ -22,7 +22,8 @@ void OpenClCompletion::wait() {
 
 void OpenClCompletion::when_done(std::function<void()> callback) {
     auto data = std::make_unique<std::function<void()>>(std::move(callback));
-    event_.setCallback(CL_COMPLETE, run_callback, data.get());
+    cl::Event event = event_;
+    event.setCallback(CL_COMPLETE, run_callback, data.get());
     static_cast<void>(data.release());  // run_callback owns it now
 }
 

@@ -5,17 +5,17 @@
 
 namespace weft {
 
-/// The completion of a command.
+/// The completion of a command, whose event the stream keeps.
 class OpenClCompletion final : public Completion {
 public:
-    explicit OpenClCompletion(cl::Event event) : event_(std::move(event)) {}
+    explicit OpenClCompletion(const cl::Event& event) : event_(event) {}
 
     void wait() override;
     void when_done(std::function<void()> callback) override;
     const cl::Event& event() const { return event_; }
 
 private:
-    cl::Event event_;
+    const cl::Event& event_;
 };
 
 /// An event of `context` that is done when all of `waits` are. Those of the same context are used

@@ -143,24 +143,28 @@ Completion* OpenClStream::submit(const Submission& s) {
     }
 }
 
-void OpenClStream::run_strips(const BoundBody& bound, const Submission& s,
-                              std::vector<cl::Event>& waits, Running& running) {
-    const Entry& entry = bound.entries.front();
-    cl::Kernel kernel = entry.kernel;
-    kernel.setArg(entry.dynamic, s.task->first_strip);
-    kernel.setArg(entry.dynamic + 1, s.instance);
-    kernel.setArg(entry.dynamic + 2, s.task->iteration);
+void OpenClStream::Entry::set(std::size_t argument, int value) {
+    if (values[argument] == value) return;
+    kernel.setArg(dynamic + static_cast<cl_uint>(argument), value);
+    values[argument] = value;
+}
+
+void OpenClStream::run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+                              Running& running) {
+    Entry& entry = bound.entries.front();
+    entry.set(0, s.task->first_strip);
+    entry.set(1, s.instance);
+    entry.set(2, s.task->iteration);
     const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
     enqueue(entry, cl::NDRange(strips), cl::NDRange(1), waits, running);
 }
 
-void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
-                               std::vector<cl::Event>& waits, Running& running) {
-    for (const Entry& entry : bound.entries) {
-        cl::Kernel kernel = entry.kernel;
-        kernel.setArg(entry.dynamic + 1, s.task->first_strip);
-        kernel.setArg(entry.dynamic + 2, s.instance);
-        kernel.setArg(entry.dynamic + 3, s.task->iteration);
+void OpenClStream::run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+                               Running& running) {
+    for (Entry& entry : bound.entries) {
+        entry.set(1, s.task->first_strip);
+        entry.set(2, s.instance);
+        entry.set(3, s.task->iteration);
     }
     const auto colours = [&](std::size_t l) {
         return bound.body->launches[l].segments.colour_count;
@@ -177,20 +181,17 @@ void OpenClStream::run_colours(const BoundBody& bound, const Submission& s,
     if (running.last() == nullptr) {  // no items at all
         const double enqueued = now();
         queue_.enqueueMarkerWithWaitList(&waits, &running.last);
-        running.first = running.last;
-        note_first(running.first, enqueued);
+        note_first(running.last, enqueued);
     }
 }
 
-void OpenClStream::run_colour(const BoundBody& bound, std::size_t launch, int colour,
-                              const Submission& s, std::vector<cl::Event>& waits,
-                              Running& running) {
-    const Entry& entry = bound.entries[launch];
+void OpenClStream::run_colour(BoundBody& bound, std::size_t launch, int colour, const Submission& s,
+                              std::vector<cl::Event>& waits, Running& running) {
+    Entry& entry = bound.entries[launch];
     const Segments& segments = bound.body->launches[launch].segments;
     const int most = segments.largest(colour, s.task->first_strip, s.task->end_strip);
     if (most == 0) return;
-    cl::Kernel kernel = entry.kernel;
-    kernel.setArg(entry.dynamic, colour);
+    entry.set(0, colour);
     const auto lanes = static_cast<std::size_t>(target_.info.lanes);
     const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
     const std::size_t items = (static_cast<std::size_t>(most) + lanes - 1) / lanes;
@@ -202,10 +203,10 @@ void OpenClStream::run_colour(const BoundBody& bound, std::size_t launch, int co
 void OpenClStream::enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
                            std::vector<cl::Event>& waits, Running& running) {
     const double enqueued = now();
+    if (running.first() == nullptr) running.first = std::move(running.last);
     queue_.enqueueNDRangeKernel(entry.kernel, cl::NullRange, items, group,
                                 waits.empty() ? nullptr : &waits, &running.last);
-    if (running.first() == nullptr) running.first = running.last;
-    note_first(running.first, enqueued);
+    note_first(running.last, enqueued);
 }
 
 void OpenClStream::note_first(const cl::Event& command, double enqueued) {
@@ -220,7 +221,8 @@ void OpenClStream::flush() {
 }
 
 TimeSpan OpenClStream::time_of(const Commands& commands, double offset) const {
-    const auto start = commands.first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const cl::Event& first = commands.first() != nullptr ? commands.first : commands.last;
+    const auto start = first.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const auto end = commands.last.getProfilingInfo<CL_PROFILING_COMMAND_END>();
     return {static_cast<double>(start) * kNanosecond + offset,
             static_cast<double>(end) * kNanosecond + offset};
@@ -265,13 +267,11 @@ OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferSto
     }
     if (out) {
         copies_.enqueueWriteBuffer(memory, CL_FALSE, offset, bytes, host, wait_list,
-                                   &commands.first);
+                                   &commands.last);
     } else {
-        copies_.enqueueReadBuffer(memory, CL_FALSE, offset, bytes, host, wait_list,
-                                  &commands.first);
+        copies_.enqueueReadBuffer(memory, CL_FALSE, offset, bytes, host, wait_list, &commands.last);
     }
-    commands.last = commands.first;
-    note_first(commands.first, enqueued);
+    note_first(commands.last, enqueued);
     return commands;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -40,12 +41,17 @@ private:
     struct Entry {
         cl::Kernel kernel;
         cl_uint dynamic = 0;  ///< index of the first argument that is set per submission
+        /// Those arguments as they are set: setting one again costs as much as a short kernel.
+        std::array<int, 4> values{-1, -1, -1, -1};
+
+        void set(std::size_t argument, int value);
     };
     struct BoundBody {
         const TaskBody* body = nullptr;
         std::vector<Entry> entries;
     };
-    /// The first and the last command of something.
+    /// The first and the last command of something; `first` is empty where they are the same, since
+    /// a second reference to an event is not free.
     struct Commands {
         cl::Event first;
         cl::Event last;
@@ -60,11 +66,11 @@ private:
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
     void bind(const cl::Program& program, const TaskBody& body, std::size_t number);
-    void run_strips(const BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+    void run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                     Running& running);
-    void run_colours(const BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
+    void run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                      Running& running);
-    void run_colour(const BoundBody& bound, std::size_t launch, int colour, const Submission& s,
+    void run_colour(BoundBody& bound, std::size_t launch, int colour, const Submission& s,
                     std::vector<cl::Event>& waits, Running& running);
     void enqueue(const Entry& entry, const cl::NDRange& items, const cl::NDRange& group,
                  std::vector<cl::Event>& waits, Running& running);
@@ -83,7 +89,7 @@ private:
     std::vector<BoundBody> bodies_;
     std::deque<OpenClCompletion> completions_;
     std::deque<Running> running_;
-    std::vector<Commands> copied_;
+    std::deque<Commands> copied_;
     double epoch_ = 0.0;
     cl::Event first_command_;      ///< of the frame; a kernel or a copy
     double first_enqueued_ = 0.0;  ///< its steady-clock seconds
