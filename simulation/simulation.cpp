@@ -91,6 +91,21 @@ void Simulation::restore(const State& state) {
     }
 }
 
+void Simulation::start_from(int frame, std::span<const float> positions,
+                            std::span<const float> velocities) {
+    State state = save();
+    for (std::size_t v = 0; v < state.positions.size(); ++v) {
+        const std::size_t from = 3 * static_cast<std::size_t>(model_->strips.order[v]);
+        float4& x = state.positions[v];
+        float4& u = state.velocities[v];
+        x = {positions[from], positions[from + 1], positions[from + 2], x.w};
+        u = {velocities[from], velocities[from + 1], velocities[from + 2], u.w};
+    }
+    for (auto& bytes : state.solver) std::fill(bytes.begin(), bytes.end(), std::byte{});
+    restore(state);
+    frame_ = frame;
+}
+
 void Simulation::place() {
     model_->place(frame_time());
     if (!executor_) return;

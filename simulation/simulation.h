@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,10 @@ public:
     const std::vector<LostDevice>& losses() const { return losses_; }
     /// Keeps what was learnt about the devices for later runs, in options.cost_file.
     void save_costs() const;
+
+    /// Goes on from another state, at the start of `frame`: xyz of all vertices in scene order [m],
+    /// [m/s]. What a solver remembers of earlier substeps is forgotten.
+    void start_from(int frame, std::span<const float> positions, std::span<const float> velocities);
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }

@@ -9,6 +9,7 @@ namespace weft {
 
 void add_compare_command(CLI::App& app);
 void add_devices_command(CLI::App& app);
+void add_error_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_plan_command(CLI::App& app);
 void add_run_command(CLI::App& app);

@@ -19,6 +19,7 @@ constexpr int kSignalled = 128;  // + the signal's number, as shells count
 
 void add_commands(CLI::App& app) {
     weft::add_run_command(app);
+    weft::add_error_command(app);
     weft::add_inspect_command(app);
     weft::add_compare_command(app);
     weft::add_devices_command(app);

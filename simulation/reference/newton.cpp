@@ -19,7 +19,7 @@ constexpr double kEnergyDigits = 1e-11;
 /// Nothing is left to gain, by the gradient or by the gap's part of the first one. (The gap goes
 /// with the gradient's square.)
 constexpr double kLastGradient = 1e-15;
-constexpr double kLastGap = 1e-24;
+constexpr double kLastGap = 1e-21;
 
 double norm(std::span<const Vec3> a) {
     double sum = 0.0;
@@ -103,7 +103,7 @@ private:
         const bool is_lost_in_rounding = -length * slope < kEnergyDigits * std::abs(energy_);
         if (!is_lost_in_rounding && energy > energy_ + kDecrease * length * slope) return false;
         std::vector<Vec3> gradient = potential_.gradient(x);
-        if (is_lost_in_rounding && !(norm(gradient) < norm(gradient_))) return false;
+        if (is_lost_in_rounding && !(norm(gradient) < 0.9 * norm(gradient_))) return false;
         x_ = std::move(x);
         energy_ = energy;
         gradient_ = std::move(gradient);

@@ -21,7 +21,8 @@ public:
     /// Names of the task kinds; TaskBody::kind is an index into it.
     virtual std::vector<std::string> kinds() const = 0;
     /// What the solver carries from substep to substep, besides the model's positions and
-    /// velocities. All zeros at the beginning of a run.
+    /// velocities. All zeros at the beginning of a run: a substep then starts at x~, whatever the
+    /// solver would guess from earlier ones, so that all solvers can be compared from one start.
     virtual std::vector<BufferStorage*> state() { return {}; }
 
     /// The task graph of one substep, with the strips divided into regions at the cuts.

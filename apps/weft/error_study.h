@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/weft/cli_support.h"
+#include "simulation/output/error_file.h"
+
+namespace weft {
+
+/// What `weft error` is asked to do.
+struct ErrorOptions {
+    RunOptions run;
+    std::optional<int> frame;
+    std::vector<std::string> solvers, devices, plans;
+    int max_iterations = 1000;
+    double time = 10.0;  ///< [s] that the measurements of one curve may take
+};
+
+/// Measures all curves. Throws UserError, RunError.
+ErrorStudy study_errors(const ErrorOptions& options);
+
+/// The numbers of iterations that are measured: all up to 16, then in steps of about a fifth.
+std::vector<int> measured_iterations(int most);
+
+/// The first point of the curve that is at or below `error`; null if none is.
+const ErrorPoint* first_below(const ErrorCurve& curve, double error);
+
+}  // namespace weft

@@ -1,0 +1,94 @@
+#include "simulation/reference/minimum_cache.h"
+
+#include <cstring>
+#include <filesystem>
+
+#include "runtime/cache_folder.h"
+
+namespace weft {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// To be raised when the meaning of the file or of an energy changes.
+constexpr double kVersion = 1;
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// Everything that E(x) depends on. The material is taken by its effect: the energy and the
+/// gradient at two places, to the last bit.
+std::string problem_bytes(const IncrementalPotential& potential) {
+    std::string bytes;
+    append(bytes, std::vector<double>{kVersion});
+    append(bytes, potential.predicted());
+    append(bytes, potential.inertia());
+    for (const auto& family : potential.elements()) {
+        for (int e = 0; e < family->count(); ++e) {
+            const auto corners = family->corners(e);
+            append(bytes, std::vector<int>(corners.begin(), corners.end()));
+        }
+    }
+    std::vector<Vec3> x = potential.predicted();
+    for (int place = 0; place < 2; ++place) {
+        append(bytes, std::vector<double>{potential.energy(x)});
+        append(bytes, potential.gradient(x));
+        for (Vec3& v : x) v = {1.25 * v.x + 0.125 * v.y, v.y - 0.25 * v.z, 1.5 * v.z + 0.125 * v.x};
+    }
+    return bytes;
+}
+
+fs::path cached_file(const IncrementalPotential& potential) {
+    const fs::path folder = cache_folder();
+    if (folder.empty()) return {};
+    return folder / ("minimum-" + cache_key(problem_bytes(potential)) + ".bin");
+}
+
+/// The file: energy, start energy, certificate (3 numbers), then xyz of every vertex; doubles.
+constexpr std::size_t kHeader = 5;
+
+std::string to_bytes(const Minimum& minimum) {
+    const Certificate& c = minimum.certificate;
+    std::string bytes;
+    append(bytes, std::vector<double>{minimum.energy, minimum.start_energy, c.relative_gradient,
+                                      c.relative_gap, static_cast<double>(c.iterations)});
+    for (const Vec3& x : minimum.x) append(bytes, std::vector<double>{x.x, x.y, x.z});
+    return bytes;
+}
+
+bool read_minimum(const fs::path& path, const IncrementalPotential& potential, Minimum& minimum) {
+    const std::string bytes = read_cached(path);
+    const std::size_t vertices = potential.predicted().size();
+    std::vector<double> numbers(kHeader + 3 * vertices);
+    if (bytes.size() != numbers.size() * sizeof(double)) return false;
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    minimum.energy = numbers[0];
+    minimum.start_energy = numbers[1];
+    minimum.certificate = {numbers[2], numbers[3], static_cast<int>(numbers[4])};
+    minimum.x.clear();
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const double* x = &numbers[kHeader + 3 * v];
+        minimum.x.push_back({x[0], x[1], x[2]});
+    }
+    return potential.energy(minimum.x) == minimum.energy &&
+           potential.energy(potential.predicted()) == minimum.start_energy;
+}
+
+}  // namespace
+
+Minimum find_minimum(IncrementalPotential& potential,
+                     const std::function<void(const Certificate&)>& progress) {
+    const fs::path path = cached_file(potential);
+    Minimum minimum;
+    if (!path.empty() && read_minimum(path, potential, minimum)) return minimum;
+    minimum = minimise(potential, potential.predicted(), progress);
+    if (!path.empty() && minimum.certificate.relative_gap <= kSolvedGap) {
+        write_cached(path, to_bytes(minimum));
+    }
+    return minimum;
+}
+
+}  // namespace weft
