@@ -60,6 +60,33 @@ TEST(Newton, IsAMinimum) {
     }
 }
 
+/// What moves the vertices from x~ to the minimum are internal forces: together they have neither a
+/// resultant nor a moment about the minimum.
+TEST(Newton, MinimumConservesMomentum) {
+    Scene scene = parse_scene(kPinnedSheet, "test.toml");
+    scene.cloths[0].pins.clear();
+    Warnings warnings;
+    Model model(scene, warnings);
+    for (std::size_t v = 0; v < model.positions->count(); ++v) {
+        float4& x = (*model.positions)[v];
+        x = {1.3f * x.x + 0.2f * x.z, 0.4f * x.x * x.x, 0.8f * x.z + 0.2f * x.x * x.z, x.w};
+        (*model.velocities)[v] = to_float4({x.z, x.x * x.z, -x.y});
+    }
+    IncrementalPotential potential(model, 0.0);
+    const Minimum minimum = minimise(potential, potential.predicted());
+    Vec3 resultant, moment;
+    double size = 0.0;
+    for (std::size_t v = 0; v < minimum.x.size(); ++v) {
+        const Vec3 force = potential.inertia()[v] * (minimum.x[v] - potential.predicted()[v]);
+        resultant = resultant + force;
+        moment = moment + cross(minimum.x[v], force);
+        size += length(force);
+    }
+    EXPECT_GT(size, 1.0);
+    EXPECT_LT(length(resultant), 1e-11 * size);
+    EXPECT_LT(length(moment), 1e-11 * size);
+}
+
 TEST(Newton, SolvesStiffMaterialAndLongSteps) {
     for (const double stiffness : {1e-2, 1e3, 1e8}) {
         Scene scene = parse_scene(kPinnedSheet, "test.toml");

@@ -124,12 +124,12 @@ TEST(Momentum, AngularDriftsInProportionToTheStep) {
         const Momenta momenta = momenta_after_release(substeps);
         return length(momenta.angular) / momenta.size;
     };
-    const double coarse = drift(8);
-    const double middle = drift(32);
-    const double fine = drift(128);
-    EXPECT_GT(coarse, 1e-3) << "large enough to compare";
-    EXPECT_NEAR(coarse / middle, 4.0, 1.5);
-    EXPECT_NEAR(middle / fine, 4.0, 1.5);
+    const double coarse = drift(64);
+    const double middle = drift(256);
+    const double fine = drift(1024);
+    EXPECT_GT(fine, 1e-4) << "large enough to compare";
+    EXPECT_NEAR(coarse / middle, 4.0, 0.6);
+    EXPECT_NEAR(middle / fine, 4.0, 0.6);
 }
 
 }  // namespace
