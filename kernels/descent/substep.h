@@ -33,7 +33,10 @@ WEFT_KERNEL(begin_descent, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* pr
     const float size = g.x * g.x + g.y * g.y + g.z * g.z;
     const float inverse = size > 0.0f ? 1.0f / size : 0.0f;
     const real fall = (held.x * g.x + held.y * g.y + held.z * g.z) * inverse;
-    const real share = smaller(larger(fall, splat(-h2)), splat(0.0f));
+    // What is small against the fall is rounding, or the last trace of what is long gone: kept, it
+    // would hold up a stiff body for ever, which is slow to move as a whole.
+    const real held_up = smaller(larger(fall, splat(-h2)), splat(0.0f));
+    const real share = held_up < splat(-0.125f * h2) ? held_up : splat(0.0f);
     const real3 start =
         make3(target.x + share * g.x, target.y + share * g.y, target.z + share * g.z);
 

@@ -61,7 +61,7 @@ const TableKeys& solver_table() {
          .help = "solver",
          .fallback = std::string("xpbd"),
          .choices = method_names(),
-         .later_choices = {"jpgd", "sosd"}},
+         .later_choices = {"sosd"}},
         {.name = "iterations",
          .type = Type::kInteger,
          .help = "iterations per substep",

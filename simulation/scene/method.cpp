@@ -17,6 +17,7 @@ struct Entry {
 constexpr Entry kMethods[] = {
     {Method::kXpbd, "xpbd", false},
     {Method::kVbd, "vbd", true},
+    {Method::kJpgd, "jpgd", false},
 };
 
 const Entry& entry_of(Method method) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "kernels/descent/gather_bending.h"
+#include "kernels/descent/gather_forces.h"
 #include "simulation/solver/sliced_rows.h"
 #include "simulation/solver/slopes.h"
 
@@ -70,6 +71,12 @@ public:
     Launch gather(const SlopeTarget& t) override {
         return launch(kernels::gather_bending, t.segments, t.positions, t.vertices, rows_.slices(),
                       others_, weights_, diagonal_, t.sums, t.item_count, SlicedRows::kStride,
+                      t.fresh);
+    }
+
+    Launch gather_forces(const SlopeTarget& t) override {
+        return launch(kernels::gather_bending_forces, t.segments, t.positions, t.vertices,
+                      rows_.slices(), others_, weights_, t.sums, t.item_count, SlicedRows::kStride,
                       t.fresh);
     }
 

@@ -68,10 +68,10 @@ void DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& r
         .updates(targets_, first, last);
 }
 
-void DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
-                             int iteration) {
+Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
+                                     int iteration) {
     const auto [first, last] = vertices(region.begin, region.end);
-    step.add(body, iteration, region.begin, region.end, region.id)
+    return step.add(body, iteration, region.begin, region.end, region.id)
         .reads(*model_.positions, first, last)
         .reads(*model_.previous, first, last)
         .updates(*model_.velocities, first, last)

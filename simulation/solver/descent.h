@@ -19,7 +19,7 @@ public:
     std::vector<Launch> begin();
     std::vector<Launch> end();
     void add_begin(Step& step, const TaskBody& body, const Region& region);
-    void add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
+    Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
 
     /// Pushes vertices out of obstacles, as the last thing of an iteration; nothing without any.
     void add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions);

@@ -18,10 +18,32 @@ Slopes::Slopes(const Model& model, VertexItems& items)
 std::vector<Launch> Slopes::gather(Phase phase, Buffer<float4>& positions) {
     std::vector<Launch> launches;
     for (const auto& family : families_) {
-        launches.push_back(family->gather({items_.segments(phase), positions, items_.vertices(),
-                                           sums_, items_.count(), launches.empty() ? 1 : 0}));
+        launches.push_back(family->gather(target(phase, positions, launches.empty())));
     }
     return launches;
+}
+
+std::vector<Launch> Slopes::gather_forces(Phase phase, Buffer<float4>& positions) {
+    std::vector<Launch> launches;
+    for (const auto& family : families_) {
+        launches.push_back(family->gather_forces(target(phase, positions, launches.empty())));
+    }
+    return launches;
+}
+
+SlopeTarget Slopes::target(Phase phase, Buffer<float4>& positions, bool is_first) {
+    return {items_.segments(phase), positions,       items_.vertices(), sums_,
+            items_.count(),         is_first ? 1 : 0};
+}
+
+void Slopes::add_hessian_accesses(Step::Adding& task, int first, int last, bool writes) {
+    for (int column = 3; column < 9; ++column) {
+        const int begin = column * items_.count();
+        if (writes)
+            task.updates(sums_, begin + first, begin + last);
+        else
+            task.reads(sums_, begin + first, begin + last);
+    }
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "runtime/step.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/vertex_items.h"
 
@@ -23,6 +24,8 @@ class SlopeFamily {
 public:
     virtual ~SlopeFamily() = default;
     virtual Launch gather(const SlopeTarget& target) = 0;
+    /// Only the gradients.
+    virtual Launch gather_forces(const SlopeTarget& target) = 0;
 };
 
 std::unique_ptr<SlopeFamily> make_spring_slopes(const Springs& springs, const VertexItems& items);
@@ -35,9 +38,15 @@ public:
 
     /// One launch per family, over the items of a phase.
     std::vector<Launch> gather(Phase phase, Buffer<float4>& positions);
+    /// Only the gradients: the Hessian blocks stay as they are.
+    std::vector<Launch> gather_forces(Phase phase, Buffer<float4>& positions);
+    /// What a task needs of the Hessian blocks of items [first, last) that outlive it.
+    void add_hessian_accesses(Step::Adding& task, int first, int last, bool writes);
     Buffer<float>& sums() { return sums_; }
 
 private:
+    SlopeTarget target(Phase phase, Buffer<float4>& positions, bool is_first);
+
     VertexItems& items_;
     Buffer<float> sums_;
     std::vector<std::unique_ptr<SlopeFamily>> families_;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "simulation/solver/jpgd.h"
 #include "simulation/solver/vbd.h"
 #include "simulation/solver/xpbd.h"
 
@@ -13,6 +14,8 @@ std::unique_ptr<Solver> make_solver(Model& model) {
             return make_xpbd_solver(model);
         case Method::kVbd:
             return make_vbd_solver(model);
+        case Method::kJpgd:
+            return make_jpgd_solver(model);
     }
     throw std::logic_error("a method without a solver");
 }

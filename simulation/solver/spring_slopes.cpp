@@ -1,3 +1,4 @@
+#include "kernels/descent/gather_forces.h"
 #include "kernels/descent/gather_springs.h"
 #include "simulation/solver/sliced_rows.h"
 #include "simulation/solver/slopes.h"
@@ -35,6 +36,12 @@ public:
     Launch gather(const SlopeTarget& t) override {
         return launch(kernels::gather_springs, t.segments, t.positions, t.vertices, rows_.slices(),
                       others_, material_, t.sums, t.item_count, rows_.entry_count(),
+                      SlicedRows::kStride, t.fresh);
+    }
+
+    Launch gather_forces(const SlopeTarget& t) override {
+        return launch(kernels::gather_spring_forces, t.segments, t.positions, t.vertices,
+                      rows_.slices(), others_, material_, t.sums, t.item_count, rows_.entry_count(),
                       SlicedRows::kStride, t.fresh);
     }
 

@@ -59,24 +59,19 @@ private:
         body.taking_turns = static_cast<int>(body.launches.size());
     }
 
-    /// As XPBD's: seams first, the open ones as tasks of their own; then strips, those beside a cut
-    /// as tasks of their own, so that the exchange hides behind the others.
+    /// As XPBD's: seams first, the open ones as tasks of their own; then strips.
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
         for (const Region& region : regions) {
             add_seams(step, iteration, region.begin, region.end - 1, region.id);
         }
         for (const Region& region : regions) {
-            if (region.cut_behind) {
-                add_seams(step, iteration, region.end - 1, region.end, region.id);
-            }
+            if (!region.cut_behind) continue;
+            add_seams(step, iteration, region.end - 1, region.end, region.id);
         }
         for (const Region& region : regions) {
-            const int near_before = region.cut_before ? region.begin + 1 : region.begin;
-            const int near_behind =
-                region.cut_behind ? std::max(region.end - 1, near_before) : region.end;
-            add_strips(step, iteration, region.begin, near_before, region.id);
-            add_strips(step, iteration, near_behind, region.end, region.id);
-            add_strips(step, iteration, near_before, near_behind, region.id);
+            for_each_share(region, [&](int begin, int end) {
+                add_strips(step, iteration, begin, end, region.id);
+            });
         }
     }
 
@@ -95,7 +90,6 @@ private:
     }
 
     void add_strips(Step& step, int iteration, int begin, int end, int region) {
-        if (begin >= end) return;
         const auto [first, last] = substep_.vertices(begin, end);
         auto task = step.add(strips_, iteration, begin, end, region);
         task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);

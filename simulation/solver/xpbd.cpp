@@ -5,30 +5,13 @@
 #include "kernels/motion.h"
 #include "kernels/xpbd/hinges.h"
 #include "kernels/xpbd/springs.h"
+#include "simulation/solver/regions.h"
 
 namespace weft {
 
 namespace {
 
 enum Kind { kPredict, kSeams, kStrips, kVelocities };
-
-/// The strips of one region.
-struct Region {
-    int begin = 0;
-    int end = 0;
-    bool cut_before = false;  ///< another region ends where it begins
-    bool cut_behind = false;
-};
-
-std::vector<Region> regions_between(std::span<const int> cuts, int strip_count) {
-    std::vector<Region> regions{{0, strip_count, false, false}};
-    for (const int cut : cuts) {
-        regions.back().end = cut;
-        regions.back().cut_behind = true;
-        regions.push_back({cut, strip_count, true, false});
-    }
-    return regions;
-}
 
 class XpbdSolver final : public Solver {
 public:
@@ -63,18 +46,16 @@ public:
     Step make_step(std::span<const int> cuts) override {
         const auto regions = regions_between(cuts, model_.strips.count());
         Step step;
-        for (std::size_t r = 0; r < regions.size(); ++r) add_predict(step, regions[r], id(r));
+        for (const Region& region : regions) add_predict(step, region);
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
-        for (std::size_t r = 0; r < regions.size(); ++r) add_velocities(step, regions[r], id(r));
+        for (const Region& region : regions) add_velocities(step, region);
         step.seal();
         return step;
     }
 
 private:
-    static int id(std::size_t region) { return static_cast<int>(region); }
-
     void make_predict() {
         predict_ = {"predict", kPredict, {}};
         predict_.launches.push_back(launch(kernels::predict, model_.vertices(), *model_.positions,
@@ -118,19 +99,20 @@ private:
         return model_.strips.begin[static_cast<std::size_t>(strip)];
     }
 
-    void add_predict(Step& step, const Region& region, int id) {
+    void add_predict(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        step.add(predict_, 0, region.begin, region.end, id)
+        step.add(predict_, 0, region.begin, region.end, region.id)
             .reads(*model_.velocities, begin, end)
             .updates(*model_.positions, begin, end)
             .updates(*model_.previous, begin, end);
     }
 
-    void add_velocities(Step& step, const Region& region, int id) {
+    void add_velocities(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        step.add(velocities_, model_.scene.solver.iterations - 1, region.begin, region.end, id)
+        step.add(velocities_, model_.scene.solver.iterations - 1, region.begin, region.end,
+                 region.id)
             .reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
@@ -139,28 +121,18 @@ private:
     /// First what crosses from strip to strip, then the strips. Only the open seam between two
     /// regions and the strips beside it are shared between devices, so they are tasks of their own.
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
-        for (std::size_t r = 0; r < regions.size(); ++r) {
-            add_seams(step, iteration, regions[r].begin, regions[r].end - 1, id(r));
+        for (const Region& region : regions) {
+            add_seams(step, iteration, region.begin, region.end - 1, region.id);
         }
-        for (std::size_t r = 0; r + 1 < regions.size(); ++r) {
-            add_seams(step, iteration, regions[r].end - 1, regions[r].end, id(r));
+        for (const Region& region : regions) {
+            if (!region.cut_behind) continue;
+            add_seams(step, iteration, region.end - 1, region.end, region.id);
         }
-        for (std::size_t r = 0; r < regions.size(); ++r) {
-            add_region(step, iteration, regions[r], id(r));
+        for (const Region& region : regions) {
+            for_each_share(region, [&](int begin, int end) {
+                add_strips(step, iteration, begin, end, region.id);
+            });
         }
-    }
-
-    /// A region's strips, in an order that hides the exchange. The region before a cut does the
-    /// open seam and its own strip beside it early in an iteration; the region behind does its
-    /// strip half-way: so either may be half an iteration ahead of the other before it has to wait.
-    void add_region(Step& step, int iteration, const Region& region, int id) {
-        const int far_begin = region.cut_before ? region.begin + 1 : region.begin;
-        const int far_end = region.cut_behind ? std::max(region.end - 1, far_begin) : region.end;
-        const int half = region.cut_before ? far_begin + (far_end - far_begin + 1) / 2 : far_end;
-        add_strips(step, iteration, far_end, region.end, id);
-        add_strips(step, iteration, far_begin, half, id);
-        add_strips(step, iteration, region.begin, far_begin, id);
-        add_strips(step, iteration, half, far_end, id);
     }
 
     void add_seams(Step& step, int iteration, int begin, int end, int id) {

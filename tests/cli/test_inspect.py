@@ -48,7 +48,8 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
 
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert {"bending", "obstacles", "friction", "pins", "moving pins", "damping"} <= set(left_out)
-    assert left_out["bending"]["kernels"] == ["project_hinges"]
+    assert left_out["bending"]["kernels"] == [
+        "gather_bending", "gather_bending_forces", "hinge_terms", "project_hinges"]
     assert left_out["moving pins"]["kernels"] == ["move_pins"]
     assert "rub_on_sphere" in left_out["obstacles"]["kernels"]
 

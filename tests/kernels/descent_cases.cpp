@@ -1,4 +1,5 @@
 #include "kernels/descent/gather_bending.h"
+#include "kernels/descent/gather_forces.h"
 #include "kernels/descent/gather_springs.h"
 #include "kernels/descent/substep.h"
 #include "kernels/vbd/solve.h"
@@ -78,6 +79,28 @@ void bending_case(KernelCase& c) {
                       weights, diagonal, sums, c.items, c.items, c.items % 2);
 }
 
+void spring_forces_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& vertices = add_vertices(c);
+    auto& slices = add_slices(c);
+    auto& others = add_others(c, vertices);
+    auto& material = add_reals(c, "material", 2 * kRow * c.items, 0.0f, 2.0f);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::gather_spring_forces, c.segments, positions, vertices, slices,
+                      others, material, sums, c.items, kRow * c.items, c.items, c.items % 2);
+}
+
+void bending_forces_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& vertices = add_vertices(c);
+    auto& slices = add_slices(c);
+    auto& others = add_others(c, vertices);
+    auto& weights = add_reals(c, "weights", kRow * c.items, -1.0f, 1.0f);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::gather_bending_forces, c.segments, positions, vertices, slices,
+                      others, weights, sums, c.items, c.items, c.items % 2);
+}
+
 void solve_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& targets = c.add<float4>("targets", 2 * c.items);
@@ -133,6 +156,8 @@ void push_case(KernelCase& c) {
 
 const bool added = add_case("gather_springs", springs_case) &&
                    add_case("gather_bending", bending_case) &&
+                   add_case("gather_spring_forces", spring_forces_case) &&
+                   add_case("gather_bending_forces", bending_forces_case) &&
                    add_case("solve_vertices", solve_case) &&
                    add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
                    add_case("copy_positions", copy_case) && add_case("push_targets", push_case);

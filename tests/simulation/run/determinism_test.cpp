@@ -27,8 +27,10 @@ struct TestScene {
 const TestScene kScenes[] = {
     {"Everything", kEverything, Method::kXpbd, "4f0878c76cf04b3783d0431c625fa8d1"},
     {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
-    {"VbdEverything", kEverything, Method::kVbd, "a199dc997b5b2ecca29dcbf423e0f881"},
-    {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "7ee263a13bb177d64b990eb0d036ec9e"},
+    {"VbdEverything", kEverything, Method::kVbd, "b193d13349f46ab2fbbb62ed54af3a9d"},
+    {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
+    {"JpgdEverything", kEverything, Method::kJpgd, "8c506120e1bf06accd014070196bdaf6"},
+    {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "429c832900be0e6c9e774654dc7fb80c"},
 };
 
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {

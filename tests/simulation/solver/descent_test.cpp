@@ -79,7 +79,8 @@ std::string name_of_method(const testing::TestParamInfo<Method>& info) {
     return std::string(name_of(info.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Descent, testing::Values(Method::kVbd), name_of_method);
+INSTANTIATE_TEST_SUITE_P(Methods, Descent, testing::Values(Method::kVbd, Method::kJpgd),
+                         name_of_method);
 
 }  // namespace
 }  // namespace weft::test

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// E(x) on the devices, as sums that are the same whoever adds them up: 64 per strip. See
+/// kernels/descent/energy_terms.h.
+class EnergySum {
+public:
+    static constexpr int kColumns = 64;
+
+    EnergySum(Model& model, Buffer<float4>& targets);
+
+    /// What writes the sums of a strip for these positions.
+    std::vector<Launch> launches(Buffer<float4>& positions);
+    /// [kColumns * strips] E is the sum of them all [J].
+    Buffer<float>& partials() { return partials_; }
+
+private:
+    /// The terms of one kind of item.
+    struct Part {
+        Part(const std::string& name, int item_count, int table_size)
+            : slots(name + ".slots", static_cast<std::size_t>(item_count)),
+              strip_begin(name + ".strips", static_cast<std::size_t>(table_size)) {}
+
+        Buffer<int> slots;            ///< [items] in terms_
+        Buffer<int> strip_begin;      ///< one segment per strip, for each phase
+        std::vector<Segments> items;  ///< [phases]
+    };
+    std::unique_ptr<Part> make_part(const std::string& name, Elements& elements);
+    std::unique_ptr<Part> make_vertices_part();
+    /// Gives the part's items their places behind those that each strip already has.
+    void take_places(Part& part);
+    void place_strips();
+
+    Model& model_;
+    Buffer<float4>& targets_;
+    std::vector<int> used_;  ///< [strips] terms
+    std::unique_ptr<Part> vertices_, springs_, hinges_;
+    std::unique_ptr<Buffer<float>> terms_;
+    Buffer<int> columns_;       ///< [2 * kColumns * strips]
+    Buffer<int> column_begin_;  ///< [strips + 1]
+    Buffer<float> partials_;
+};
+
+}  // namespace weft

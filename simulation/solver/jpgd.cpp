@@ -1,0 +1,223 @@
+#include "simulation/solver/jpgd.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/descent/substep.h"
+#include "kernels/jpgd/control.h"
+#include "kernels/jpgd/step.h"
+#include "simulation/solver/descent.h"
+#include "simulation/solver/energy_sum.h"
+#include "simulation/solver/slopes.h"
+
+namespace weft {
+
+namespace {
+
+enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities };
+
+constexpr int kCheckEvery = 8;     ///< iterations
+constexpr int kRefreshEvery = 32;  ///< iterations
+constexpr float kSlack = 1.00001f;
+constexpr float kSlackWithObstacles = 2.0f;
+
+/// Wang and Yang 2016, section 4.3: the estimated spectral radius, in stages.
+double spectral_radius(int iteration) {
+    if (iteration < 1) return 0.0;
+    if (iteration < 7) return 0.96;
+    if (iteration < 10) return 0.991;
+    return 0.999;
+}
+
+/// What of a mode is left after all iterations, it must not be below -1/3 (see control.h): with
+/// this radius or less, Chebyshev's polynomial stays above -1/4.
+double largest_radius(int iterations) { return 1.0 / std::cosh(std::acosh(4.0) / iterations); }
+
+/// Chebyshev's weights: w_1 = 1, w_2 = 2 / (2 - rho^2), w_n = 4 / (4 - rho^2 w_(n-1)).
+void fill_chebyshev(Buffer<float>& weights, int iterations) {
+    double weight = 1.0;
+    for (std::size_t n = 0; n < weights.count(); ++n) {
+        const double rho =
+            std::min(spectral_radius(static_cast<int>(n)), largest_radius(iterations));
+        if (n == 1) weight = 2.0 / (2.0 - rho * rho);
+        if (n > 1) weight = 4.0 / (4.0 - rho * rho * weight);
+        weights[n] = static_cast<float>(weight);
+    }
+}
+
+class JpgdSolver final : public Solver {
+public:
+    explicit JpgdSolver(Model& model)
+        : model_(model),
+          iterations_(model.scene.solver.iterations),
+          substep_(model),
+          items_(model.strips),
+          slopes_(model, items_),
+          energy_(model, substep_.targets()),
+          other_("positions.other", model.positions->count()),
+          kept_("positions.kept", model.positions->count()),
+          control_("control", WEFT_CONTROL_SIZE),
+          weights_("chebyshev", static_cast<std::size_t>(iterations_) + 1),
+          first_strip_("first_strip", static_cast<std::size_t>(model.strips.count()) + 1) {
+        fill_chebyshev(weights_, iterations_);
+        std::fill(first_strip_.data() + 1, first_strip_.data() + first_strip_.count(), 1);
+        if (model.obstacles) {
+            kept_targets_ = std::make_unique<Buffer<float4>>("targets.kept", kept_.count());
+        }
+        make_bodies();
+    }
+
+    std::vector<const TaskBody*> bodies() const override {
+        std::vector<const TaskBody*> list{&predict_, &decide_, &velocities_};
+        for (const std::size_t parity : {0U, 1U}) {
+            for (const auto* bodies : {&energies_, &reverts_, &refreshes_, &steps_}) {
+                list.push_back(&(*bodies)[parity]);
+            }
+        }
+        return list;
+    }
+    std::vector<std::string> kinds() const override {
+        return {"predict", "energy", "decide", "revert", "refresh", "step", "velocities"};
+    }
+    std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
+
+    Step make_step(std::span<const int> cuts) override {
+        const auto regions = regions_between(cuts, model_.strips.count());
+        Step step;
+        for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+        for (int i = 0; i < iterations_; ++i) {
+            if (i % kCheckEvery == 0) add_check(step, regions, i);
+            for (const Region& region : regions) {
+                for_each_share(region, [&](int begin, int end) {
+                    add_descent(step, i, begin, end, region.id);
+                });
+            }
+        }
+        add_check(step, regions, iterations_);
+        for (const Region& region : regions) add_velocities(step, region);
+        step.seal();
+        return step;
+    }
+
+private:
+    /// The positions after so many iterations.
+    Buffer<float4>& after(int iterations) {
+        return iterations % 2 == 0 ? *model_.positions : other_;
+    }
+
+    void make_bodies() {
+        predict_ = {"predict", kPredict, substep_.begin()};
+        substep_.add_contacts(predict_.launches, *model_.positions);
+        const Segments first{&first_strip_, 0, 1, model_.strips.count()};
+        decide_ = {"decide",
+                   kDecide,
+                   {launch(kernels::decide_step, first, control_, energy_.partials(),
+                           static_cast<int>(energy_.partials().count()),
+                           model_.obstacles ? kSlackWithObstacles : kSlack, kIteration)}};
+        for (const int parity : {0, 1}) {
+            const auto p = static_cast<std::size_t>(parity);
+            energies_[p] = {"energy", kEnergy, energy_.launches(after(parity))};
+            reverts_[p] = {"revert", kRevert, {keep_or_revert(after(parity), kept_)}};
+            if (kept_targets_) {
+                reverts_[p].launches.push_back(keep_or_revert(substep_.targets(), *kept_targets_));
+            }
+            refreshes_[p] = {"refresh", kRefresh, slopes_.gather(kInnerPhase, after(parity))};
+            steps_[p] = {"step", kStep, slopes_.gather_forces(kInnerPhase, after(parity))};
+            for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
+                body->launches.push_back(descend(after(parity), after(parity + 1)));
+                substep_.add_contacts(body->launches, after(parity + 1));
+            }
+        }
+        velocities_ = {"velocities", kVelocities, {}};
+        if (iterations_ % 2 != 0) {
+            velocities_.launches.push_back(
+                launch(kernels::copy_positions, model_.vertices(), other_, *model_.positions));
+        }
+        const auto end = substep_.end();
+        velocities_.launches.insert(velocities_.launches.end(), end.begin(), end.end());
+    }
+
+    Launch keep_or_revert(Buffer<float4>& values, Buffer<float4>& kept) {
+        return launch(kernels::keep_or_revert, model_.vertices(), values, kept, control_);
+    }
+
+    Launch descend(Buffer<float4>& positions, Buffer<float4>& next) {
+        return launch(kernels::step_preconditioned, model_.vertices(), positions, next,
+                      substep_.targets(), slopes_.sums(), control_, weights_, items_.count(),
+                      static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
+    }
+
+    void add_check(Step& step, const std::vector<Region>& regions, int iteration) {
+        const auto parity = static_cast<std::size_t>(iteration % 2);
+        const int columns = EnergySum::kColumns;
+        for (const Region& region : regions) {
+            for_each_share(region, [&](int begin, int end) {
+                const auto [first, last] = substep_.vertices(begin, end);
+                const auto [reach_begin, reach_end] = reach_.around(first, last);
+                step.add(energies_[parity], iteration, begin, end, region.id)
+                    .reads(after(iteration), reach_begin, reach_end)
+                    .reads(substep_.targets(), first, last)
+                    .updates(energy_.partials(), columns * begin, columns * end);
+            });
+        }
+        step.add(decide_, iteration, 0, 1, 0)
+            .reads(energy_.partials(), 0, columns * model_.strips.count())
+            .updates(control_, 0, WEFT_CONTROL_SIZE);
+        for (const Region& region : regions) {
+            for_each_share(region, [&](int begin, int end) {
+                const auto [first, last] = substep_.vertices(begin, end);
+                auto task = step.add(reverts_[parity], iteration, begin, end, region.id);
+                task.reads(control_, 0, WEFT_CONTROL_SIZE)
+                    .updates(after(iteration), first, last)
+                    .updates(kept_, first, last);
+                if (!kept_targets_) return;
+                task.updates(substep_.targets(), first, last).updates(*kept_targets_, first, last);
+            });
+        }
+    }
+
+    void add_descent(Step& step, int iteration, int begin, int end, int region) {
+        const bool is_fresh = iteration % kRefreshEvery == 0;
+        const auto parity = static_cast<std::size_t>(iteration % 2);
+        const auto [first, last] = substep_.vertices(begin, end);
+        const auto [reach_begin, reach_end] = reach_.around(first, last);
+        auto task =
+            step.add(is_fresh ? refreshes_[parity] : steps_[parity], iteration, begin, end, region);
+        task.reads(control_, 0, WEFT_CONTROL_SIZE)
+            .reads(after(iteration), reach_begin, reach_end)
+            .reads(substep_.targets(), first, last)
+            .updates(after(iteration + 1), first, last);
+        slopes_.add_hessian_accesses(task, first, last, is_fresh);
+        substep_.add_contact_accesses(task, first, last);
+    }
+
+    void add_velocities(Step& step, const Region& region) {
+        auto task = substep_.add_end(step, velocities_, region, iterations_ - 1);
+        if (iterations_ % 2 == 0) return;
+        const auto [first, last] = substep_.vertices(region.begin, region.end);
+        task.reads(other_, first, last).updates(*model_.positions, first, last);
+    }
+
+    Model& model_;
+    int iterations_;
+    DescentSubstep substep_;
+    VertexItems items_;
+    Slopes slopes_;
+    EnergySum energy_;
+    Reach reach_{model_};
+    Buffer<float4> other_, kept_;
+    std::unique_ptr<Buffer<float4>> kept_targets_;  ///< null: no obstacles, nothing moves targets
+    Buffer<float> control_;
+    Buffer<float> weights_;
+    Buffer<int> first_strip_;  ///< one item, in strip 0
+    TaskBody predict_, decide_, velocities_;
+    std::array<TaskBody, 2> energies_, reverts_, refreshes_, steps_;  ///< [parity of iterations]
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_jpgd_solver(Model& model) {
+    return std::make_unique<JpgdSolver>(model);
+}
+
+}  // namespace weft
