@@ -5,6 +5,7 @@
 #include "scheduler/cpop.h"
 #include "scheduler/heft.h"
 #include "scheduler/hps.h"
+#include "scheduler/in_order.h"
 #include "scheduler/lookahead.h"
 #include "scheduler/optimal.h"
 #include "scheduler/peft.h"
@@ -25,13 +26,10 @@ std::unique_ptr<Planner> make() {
 }
 
 constexpr std::array kPlanners{
-    Entry{"heft", make<Heft>},
-    Entry{"peft", make<Peft>},
-    Entry{"cpop", make<Cpop>},
-    Entry{"lookahead", make<Lookahead>},
-    Entry{"hps", make<Hps>},
-    Entry{"single", make<Single>},
-    Entry{"portfolio", make<Portfolio>},
+    Entry{"heft", make<Heft>},        Entry{"peft", make<Peft>},
+    Entry{"cpop", make<Cpop>},        Entry{"lookahead", make<Lookahead>},
+    Entry{"hps", make<Hps>},          Entry{"single", make<Single>},
+    Entry{"in-order", make<InOrder>}, Entry{"portfolio", make<Portfolio>},
     Entry{"optimal", make<Optimal>},
 };
 

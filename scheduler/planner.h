@@ -37,7 +37,7 @@ private:
     LowerBounds bounds_;
 };
 
-/// heft, peft, cpop, lookahead, hps, single, portfolio, optimal.
+/// heft, peft, cpop, lookahead, hps, single, in-order, portfolio, optimal.
 std::span<const std::string_view> planner_names();
 
 /// A planner with its default settings; nullptr for an unknown name.

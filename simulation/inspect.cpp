@@ -85,6 +85,8 @@ std::vector<Inspection::Dataset> find_datasets(const Model& model) {
             {"run/devices", {}},
             {"frames", columns_of(trace::frame_row_type(1))},
             {"plan", columns_of(trace::plan_row_type())},
+            {"divisions", columns_of(trace::division_row_type())},
+            {"dependencies", columns_of(trace::dependency_row_type())},
             {"executions", columns_of(trace::execution_row_type())},
             {"costs", columns_of(trace::cost_row_type())},
             {"energies", columns_of(trace::energy_row_type(energy_names(model)))}};

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 #include "runtime/clock.h"
@@ -13,7 +14,9 @@
 #include "simulation/diagnostics.h"
 #include "simulation/output/state_hash.h"
 #include "simulation/planning/frame_planner.h"
+#include "simulation/planning/plan_log.h"
 #include "simulation/planning/saved_costs.h"
+#include "simulation/scene/mesh_files.h"
 
 namespace weft {
 
@@ -53,11 +56,12 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       devices_(std::move(devices)),
       active_(devices_.size()),
       model_(std::make_unique<Model>(scene, warnings)),
-      solver_(make_solver(*model_)) {
+      solver_(make_solver(*model_)),
+      plan_log_(std::make_unique<PlanLog>(devices_.size())) {
     std::iota(active_.begin(), active_.end(), 0);
     place();
     open_executor();
-    calibrate(restore_costs());
+    if (options.calibrate) calibrate(restore_costs());
 }
 
 Simulation::~Simulation() = default;
@@ -215,6 +219,15 @@ FrameRecord Simulation::advance_from(const State& start) {
     return frame;
 }
 
+void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
+    const State start = save();
+    place();
+    executor_->run(step, plan, model_->scene.substeps);
+    fetch();
+    if (find_bad_state(*model_)) diagnose(start);
+    ++frame_;
+}
+
 FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) const {
     const int substeps = model_->scene.substeps;
     FrameRecord frame;
@@ -226,6 +239,7 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
     frame.measured_makespan = times.end - times.start;
     frame.lower_bound = plan.plan.lower_bound() * substeps;
     frame.plan_time = plan.plan_time;
+    plan_log_->record(plan, planner_->timing().costs(), active_, frame);
 
     const auto& tasks = plan.step->tasks();
     const auto number = [&](auto d) { return u32(active_[static_cast<std::size_t>(d)]); };
@@ -240,22 +254,6 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
                 {u32(t.instance), u32(t.task), number(d), items, t.start, t.end});
         }
         frame.busy[number(d)] = busy;
-        std::uint32_t order = 0;
-        for (const scheduler::TaskId id : plan.plan.tasks_on(static_cast<std::uint32_t>(d))) {
-            const Task& task = tasks[id];
-            const auto& placed = plan.plan.placements[id];
-            frame.plan.push_back({id, u32(task.body->kind), u32(task.iteration),
-                                  u32(task.first_strip), u32(task.end_strip - task.first_strip),
-                                  number(d), order++, static_cast<std::uint64_t>(task.items),
-                                  placed.start, placed.end});
-        }
-    }
-    const auto& costs = planner_->timing().costs();
-    for (std::uint32_t kind = 0; kind < costs.kinds(); ++kind) {
-        for (std::uint32_t d = 0; d < costs.devices(); ++d) {
-            const auto& fit = costs.fit(kind, d);
-            frame.costs.push_back({kind, number(d), fit.cost.fixed, fit.cost.per_item, fit.frames});
-        }
     }
     for (const CopyRecord& copy : times.copies) {
         frame.transferred_bytes += copy.bytes;
@@ -305,6 +303,10 @@ RunDescription Simulation::describe() const {
     RunDescription run;
     run.scene_name = scene.name;
     run.scene_text = scene.text;
+    if (!scene.path.empty()) run.scene_path = std::filesystem::absolute(scene.path).string();
+    for (const BodyMesh& mesh : mesh_files(scene)) {
+        run.meshes.emplace_back(mesh.body, file_hash(mesh.path));
+    }
     run.settings = {{"method", std::string(name_of(scene.solver.method))},
                     {"frames", std::to_string(scene.frames)},
                     {"dt", fmt::format("{}", scene.dt)},

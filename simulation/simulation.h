@@ -9,6 +9,7 @@
 
 #include "runtime/device_list.h"
 #include "runtime/trace/records.h"
+#include "scheduler/plan.h"
 #include "simulation/planning/division.h"
 #include "simulation/planning/plan_kind.h"
 #include "simulation/solver/solver.h"
@@ -18,6 +19,7 @@ namespace weft {
 class DeviceLost;
 class Executor;
 class FramePlanner;
+class PlanLog;
 struct FramePlan;
 struct RunTimes;
 
@@ -27,6 +29,7 @@ struct SimulationOptions {
     DeviceOptions device_options;
     std::optional<Division> division;  ///< fixed instead of planned
     std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
+    bool calibrate = true;             ///< measure the devices at the start; needed to plan
 };
 
 /// A device that failed in mid-run and was left out from there on.
@@ -59,6 +62,11 @@ public:
     /// Goes on from another state, at the start of `frame`: xyz of all vertices in scene order [m],
     /// [m/s]. What a solver remembers of earlier substeps is forgotten.
     void start_from(int frame, std::span<const float> positions, std::span<const float> velocities);
+
+    /// Simulates the next frame by a plan from elsewhere, a replay's. Nothing is planned, learnt or
+    /// measured. Throws RunError if a device failed or the state went bad.
+    void advance_by(const Step& step, const scheduler::Plan& plan);
+    Step make_step(const Division& division) { return solver_->make_step(division.cuts()); }
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }
@@ -105,6 +113,7 @@ private:
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<FramePlanner> planner_;
+    std::unique_ptr<PlanLog> plan_log_;
     int frame_ = 0;
 };
 

@@ -50,7 +50,7 @@ def schedule(trace, frame=None, substep=0):
             axis.axvline(1e3 * end, color="#444444", linewidth=0.8, linestyle="--")
         measured.set_xlabel("time since the substep's start [ms]")
         measured.set_xlim(left=0)
-        _kind_legend(figure, trace, plan["kind"], len(transfers) > 0)
+        _kind_legend(measured, trace, plan["kind"], len(transfers) > 0)
         figure.suptitle(f"{trace.scene_name}: frame {frame}, substep {substep}", fontsize=11)
     return figure
 
@@ -101,7 +101,7 @@ def energy(trace):
         axis.set_ylabel("energy [J]")
         if len(time) > 1:
             axis.set_xlim(time[0], time[-1])
-        figure.legend(loc="outside right upper")
+        axis.legend(loc="upper left", bbox_to_anchor=(1, 1))
         figure.suptitle(f"{trace.scene_name}: energies", fontsize=11)
     return figure
 
@@ -171,13 +171,15 @@ def _device_axis(axis, trace):
     axis.tick_params(axis="y", length=0)
 
 
-def _kind_legend(figure, trace, kinds, with_transfers):
+def _kind_legend(axis, trace, kinds, with_transfers):
     handles = [Patch(facecolor=_colour(kind), hatch=_hatch(kind), edgecolor="white",
                      label=trace.kinds[kind]) for kind in numpy.unique(kinds)]
     if with_transfers:
         handles.append(pyplot.Line2D([], [], color="black", marker=">", markersize=4,
                                      linewidth=0.7, label="transfer"))
-    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 6))
+    # An axis' legend, not the figure's: matplotlib before 3.7 leaves no room for that one.
+    axis.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=4.5,
+                ncols=min(len(handles), 6))
 
 
 def _colour(kind):

@@ -12,7 +12,12 @@ void add_devices_command(CLI::App& app);
 void add_error_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_plan_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
 void add_run_command(CLI::App& app);
 void add_trace_command(CLI::App& app);
+
+// Of `weft trace`.
+void add_gantt_command(CLI::App& trace);
+void add_perfetto_command(CLI::App& trace);
 
 }  // namespace weft

@@ -7,6 +7,12 @@
 
 namespace weft {
 
+/// How text shows times; JSON has them as they are.
+struct TimeUnit {
+    double factor = 1.0;  ///< of the graph's times
+    std::string name;     ///< empty: whatever the graph's author had in mind
+};
+
 /// A task graph and the names of its processors, as `weft plan` reads them from JSON:
 ///
 ///   { "processors": ["cpu", "gpu"],
@@ -18,7 +24,8 @@ namespace weft {
 /// come from with one number per processor that they go to.
 struct GraphFile {
     std::vector<std::string> processors;
-    scheduler::TaskGraph graph;  ///< sealed
+    scheduler::TaskGraph graph{1};  ///< sealed
+    TimeUnit unit = {};             ///< that times are shown in
 };
 
 /// Throws UserError with the file and the line and column, or the field, that is wrong.

@@ -24,6 +24,7 @@ void add_commands(CLI::App& app) {
     weft::add_compare_command(app);
     weft::add_devices_command(app);
     weft::add_plan_command(app);
+    weft::add_replay_command(app);
     weft::add_trace_command(app);
 }
 

@@ -2,16 +2,22 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
+#include "apps/weft/cost_file.h"
 #include "apps/weft/graph_file.h"
 #include "apps/weft/plan_text.h"
+#include "apps/weft/trace_graph.h"
+#include "runtime/error.h"
 #include "scheduler/optimal.h"
 #include "scheduler/planner.h"
 #include "scheduler/portfolio.h"
@@ -33,6 +39,12 @@ struct PlanOptions {
     double time_limit = 10.0;  // s
     bool compare = false;
     bool json = false;
+    // Of traces only.
+    std::optional<std::uint32_t> frame;
+    std::optional<std::string> costs;
+    bool pinned = false;
+    std::optional<std::string> strips;
+    bool print_costs = false;
 };
 
 struct TimedPlan {
@@ -84,8 +96,20 @@ ordered_json summary_json(const TimedPlan& result) {
             {"plan_us", 1e6 * result.seconds}};
 }
 
-void print_json(const GraphFile& file, const TimedPlan& result) {
+/// What JSON says of a recorded frame, in seconds.
+ordered_json frame_json(const TraceGraph& trace) {
+    return {
+        {"scene", trace.scene},
+        {"frame", trace.frame},
+        {"substeps", trace.substeps},
+        {"strips", trace.strips},
+        {"recorded",
+         {{"planner", trace.planner}, {"makespan", trace.planned}, {"measured", trace.measured}}}};
+}
+
+void print_json(const GraphFile& file, const TimedPlan& result, const TraceGraph* trace) {
     ordered_json json = summary_json(result);
+    if (trace != nullptr) json.update(frame_json(*trace));
     json["tasks"] = ordered_json::array();
     for (TaskId t = 0; t < file.graph.task_count(); ++t) {
         const scheduler::Placement& own = result.plan.placements[t];
@@ -97,6 +121,21 @@ void print_json(const GraphFile& file, const TimedPlan& result) {
     std::cout << json.dump(2) << '\n';
 }
 
+std::string time_text(const GraphFile& file, double time) {
+    return fmt::format("{:.8g}{}{}", file.unit.factor * time, file.unit.name.empty() ? "" : " ",
+                       file.unit.name);
+}
+
+/// What is planned, and what became of it in the run.
+void print_frame(const TraceGraph& trace) {
+    std::cout << fmt::format(
+        "{}, frame {}: one of its {} substeps, {} tasks; strips per device: {}\n"
+        "recorded     planned {} by {}, measured {} on average\n\n",
+        trace.scene, trace.frame, trace.substeps, trace.file.graph.task_count(),
+        fmt::join(trace.strips, ", "), time_text(trace.file, trace.planned), trace.planner,
+        time_text(trace.file, trace.measured));
+}
+
 void print_text(const GraphFile& file, const TimedPlan& result) {
     const Plan& plan = result.plan;
     std::cout << plan_table(file, plan) << '\n' << plan_gantt(file, plan) << '\n';
@@ -104,14 +143,15 @@ void print_text(const GraphFile& file, const TimedPlan& result) {
         plan.found_by == plan.algorithm ? "" : fmt::format(" (found by {})", plan.found_by);
     const std::string note = verdict(plan);
     std::cout << fmt::format("algorithm    {}{}\n", plan.algorithm, part)
-              << fmt::format("makespan     {:.8g}{}\n", plan.makespan,
+              << fmt::format("makespan     {}{}\n", time_text(file, plan.makespan),
                              note.empty() ? "" : ", " + note)
-              << fmt::format("lower bound  {:.8g} (path {:.8g}, area {:.8g})\n", plan.lower_bound(),
-                             plan.path_bound, plan.area_bound)
+              << fmt::format("lower bound  {} (path {}, area {})\n",
+                             time_text(file, plan.lower_bound()), time_text(file, plan.path_bound),
+                             time_text(file, plan.area_bound))
               << fmt::format("gap          {:.1f} %\n", 100.0 * plan.gap());
 }
 
-void print_comparison(const GraphFile& file, const PlanOptions& options) {
+void print_comparison(const GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
     std::vector<TimedPlan> rows;
     for (const std::string& name : algorithm_names()) {
         rows.push_back(make_plan(file, name, options.time_limit));
@@ -124,6 +164,7 @@ void print_comparison(const GraphFile& file, const PlanOptions& options) {
                           {"edges", file.graph.edge_count()},
                           {"lower_bound", bound},
                           {"rows", ordered_json::array()}};
+        if (trace != nullptr) json.update(frame_json(*trace));
         for (const TimedPlan& row : rows) json["rows"].push_back(summary_json(row));
         std::cout << json.dump(2) << '\n';
         return;
@@ -131,34 +172,73 @@ void print_comparison(const GraphFile& file, const PlanOptions& options) {
     const Plan& first = rows.front().plan;
     std::cout << fmt::format("{} tasks, {} edges, {} processors\n", file.graph.task_count(),
                              file.graph.edge_count(), file.processors.size())
-              << fmt::format("lower bound {:.8g} (path {:.8g}, area {:.8g})\n\n", bound,
-                             first.path_bound, first.area_bound)
-              << fmt::format("{:<10} {:>14} {:>12} {:>12}\n", "algorithm", "makespan",
-                             "above bound", "planning");
+              << fmt::format("lower bound {} (path {}, area {})\n\n", time_text(file, bound),
+                             time_text(file, first.path_bound), time_text(file, first.area_bound))
+              << fmt::format(
+                     "{:<10} {:>14} {:>12} {:>12}\n", "algorithm",
+                     file.unit.name.empty() ? "makespan" : "makespan [" + file.unit.name + "]",
+                     "above bound", "planning");
     for (const TimedPlan& row : rows) {
         const double above = bound > 0.0 ? 100.0 * (row.plan.makespan / bound - 1.0) : 0.0;
-        const std::string line =
-            fmt::format("{:<10} {:>14.8g} {:>10.1f} % {:>9.1f} us  {}", row.plan.algorithm,
-                        row.plan.makespan, above, 1e6 * row.seconds, verdict(row.plan));
+        const std::string line = fmt::format(
+            "{:<10} {:>14.8g} {:>10.1f} % {:>9.1f} us  {}", row.plan.algorithm,
+            file.unit.factor * row.plan.makespan, above, 1e6 * row.seconds, verdict(row.plan));
         std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
     }
 }
 
-void plan_graph(const PlanOptions& options) {
-    const GraphFile file = read_graph_file(options.graph);
-    if (options.compare) return print_comparison(file, options);
+/// trace: null for a graph that is none's.
+void plan_graph(const GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
+    if (trace != nullptr && !options.json) print_frame(*trace);
+    if (options.compare) return print_comparison(file, options, trace);
     const TimedPlan result = make_plan(file, options.algorithm, options.time_limit);
     if (options.json) {
-        print_json(file, result);
+        print_json(file, result, trace);
     } else {
         print_text(file, result);
     }
 }
 
+/// By its name, so that a missing one is called by what it is; or by the signature of HDF5.
+bool is_trace(const std::string& path) {
+    if (std::filesystem::path(path).extension() == ".h5") return true;
+    char signature[4] = {};
+    std::ifstream(path, std::ios::binary).read(signature, sizeof(signature));
+    return std::string_view(signature, sizeof(signature)) == "\x89HDF";
+}
+
+void refuse_trace_options(const PlanOptions& options) {
+    const auto refuse = [&](bool given, const char* option) {
+        if (!given) return;
+        throw UserError(
+            fmt::format("{}: is for traces (.h5); {} is a task graph", option, options.graph));
+    };
+    refuse(options.frame.has_value(), "--frame");
+    refuse(options.costs.has_value(), "--costs");
+    refuse(options.pinned, "--pinned");
+    refuse(options.strips.has_value(), "--strips");
+    refuse(options.print_costs, "--print-costs");
+}
+
+void plan_file(const PlanOptions& options) {
+    if (!is_trace(options.graph)) {
+        refuse_trace_options(options);
+        return plan_graph(read_graph_file(options.graph), options, nullptr);
+    }
+    const TraceGraph trace = read_trace_graph(
+        {options.graph, options.frame, options.costs, options.strips, options.pinned});
+    if (options.print_costs) {
+        std::cout << to_json(trace.costs, trace.kinds).dump(2) << '\n';
+        return;
+    }
+    plan_graph(trace.file, options, &trace);
+}
+
 }  // namespace
 
 void add_plan_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plan", "Schedule a task graph on any processors");
+    CLI::App* command =
+        app.add_subcommand("plan", "Schedule a task graph, or a recorded frame, on any processors");
     command->footer(
         "GRAPH.json holds processors, tasks with their cost on each, and edges with the time that\n"
         "their data take from one processor to another:\n"
@@ -166,11 +246,16 @@ void add_plan_command(CLI::App& app) {
         "   \"tasks\": [{\"name\": \"a\", \"cost\": [14, 16]}, {\"name\": \"b\", \"cost\": [13, "
         "null]}],\n"
         "   \"edges\": [[\"a\", \"b\", 18]]}\n\n"
+        "A trace (.h5) gives one substep of a recorded frame, with the costs that it was planned "
+        "with\n"
+        "or with those of another machine; docs/traces.md describes the file of --costs.\n\n"
         "Examples:\n"
-        "  weft plan graph.json\n"
-        "  weft plan graph.json --compare");
+        "  weft plan graph.json --compare\n"
+        "  weft plan out/flag/trace.h5 --frame 20 --algorithm in-order --pinned\n"
+        "  weft plan out/flag/trace.h5 --frame 20 --print-costs >costs.json   # edit, then:\n"
+        "  weft plan out/flag/trace.h5 --frame 20 --costs costs.json --strips auto --pinned");
     const auto options = std::make_shared<PlanOptions>();
-    command->add_option("GRAPH", options->graph, "task graph (.json)")
+    command->add_option("GRAPH", options->graph, "task graph (.json), or trace of a run (.h5)")
         ->required()
         ->type_name("FILE");
     const std::vector<std::string> names = algorithm_names();
@@ -188,7 +273,29 @@ void add_plan_command(CLI::App& app) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON document");
-    command->callback([options] { plan_graph(*options); });
+    const std::string group = "Traces";
+    command->add_option("--frame", options->frame, "number of the frame; default: the last one")
+        ->type_name("N")
+        ->group(group);
+    command
+        ->add_option("--costs", options->costs, "plan with the costs in this file (.json) instead")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        ->add_flag("--pinned", options->pinned,
+                   "each task stays on the device that was given its strips")
+        ->group(group);
+    command
+        ->add_option("--strips", options->strips,
+                     "divide the strips anew: auto finds the best division, N,N gives each device "
+                     "so many; default: as in the run")
+        ->type_name("auto|N,N")
+        ->group(group);
+    command
+        ->add_flag("--print-costs", options->print_costs,
+                   "print the costs as a file for --costs, and stop")
+        ->group(group);
+    command->callback([options] { plan_file(*options); });
 }
 
 }  // namespace weft

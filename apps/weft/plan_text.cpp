@@ -30,6 +30,10 @@ void draw(std::string& line, const Placement& placement, double scale, std::stri
     if (end < line.size() && line[end] == ' ') line[end] = '|';
 }
 
+std::string with_unit(const std::string& word, const TimeUnit& unit) {
+    return unit.name.empty() ? word : fmt::format("{} [{}]", word, unit.name);
+}
+
 }  // namespace
 
 std::string plan_table(const GraphFile& file, const Plan& plan) {
@@ -41,13 +45,14 @@ std::string plan_table(const GraphFile& file, const Plan& plan) {
     for (const TaskId t : tasks) task_width = std::max(task_width, file.graph.name(t).size());
     for (const std::string& p : file.processors)
         processor_width = std::max(processor_width, p.size());
-    std::string text = fmt::format("{:<{}}  {:<{}}  {:>12}  {:>12}\n", "task", task_width,
-                                   "processor", processor_width, "start", "end");
+    std::string text =
+        fmt::format("{:<{}}  {:<{}}  {:>12}  {:>12}\n", "task", task_width, "processor",
+                    processor_width, with_unit("start", file.unit), with_unit("end", file.unit));
     for (const TaskId t : tasks) {
         const Placement& own = plan.placements[t];
-        text +=
-            fmt::format("{:<{}}  {:<{}}  {:>12.8g}  {:>12.8g}\n", file.graph.name(t), task_width,
-                        file.processors[own.processor], processor_width, own.start, own.end);
+        text += fmt::format("{:<{}}  {:<{}}  {:>12.8g}  {:>12.8g}\n", file.graph.name(t),
+                            task_width, file.processors[own.processor], processor_width,
+                            file.unit.factor * own.start, file.unit.factor * own.end);
     }
     return text;
 }
@@ -69,7 +74,8 @@ std::string plan_gantt(const GraphFile& file, const Plan& plan) {
         text += fmt::format("{:<{}} {}\n", file.processors[p].substr(0, label_width), label_width,
                             line);
     }
-    const std::string end = fmt::format("{:.6g}", plan.makespan);
+    const std::string end = fmt::format("{:.6g}{}{}", file.unit.factor * plan.makespan,
+                                        file.unit.name.empty() ? "" : " ", file.unit.name);
     text += fmt::format("{:<{}} 0{:>{}}\n", "", label_width, end, kColumns - 1);
     return text;
 }

@@ -135,7 +135,10 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
         FrameRecord record = simulation_->advance();
         say_losses();
         summary_->add(record);
-        if (trace_) trace_->append(std::move(record));
+        if (trace_) {
+            record.state_hash = simulation_->hash();
+            trace_->append(std::move(record));
+        }
         if (geometry_) append_geometry();
         progress.show(frames_done());
     }

@@ -102,7 +102,10 @@ void summarise_trace(const TraceOptions& options) {
 void add_trace_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("trace", "Read the trace of a run");
     command->require_subcommand(1);
-    command->footer("Example:\n  weft trace summary out/tablecloth/trace.h5");
+    command->footer(
+        "Examples:\n  weft trace summary out/tablecloth/trace.h5\n"
+        "  weft trace gantt out/tablecloth/trace.h5 --frame 10 --out schedule.png\n"
+        "  weft trace perfetto out/tablecloth/trace.h5");
 
     const auto options = std::make_shared<TraceOptions>();
     CLI::App* summary = command->add_subcommand(
@@ -112,6 +115,8 @@ void add_trace_command(CLI::App& app) {
     summary->add_flag("--json", options->json, "print one JSON document");
     summary->footer("Example:\n  weft trace summary out/tablecloth/trace.h5 --json");
     summary->callback([options] { summarise_trace(*options); });
+    add_gantt_command(*command);
+    add_perfetto_command(*command);
 }
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,10 +28,12 @@ using TextPairs = std::vector<std::pair<std::string, std::string>>;
 /// What made the run; written before the first frame and never changed.
 struct RunDescription {
     std::string scene_name;
+    std::string scene_path;  ///< the scene file, absolute; its meshes are relative to its folder
     std::string scene_text;  ///< the scene file, with overrides applied by `command` alone
     std::string command;     ///< the command line, words joined by blanks
     TextPairs versions;      ///< e.g. {"weft", "0.1.0"}, {"hdf5", "1.10.8"}
     TextPairs settings;      ///< e.g. {"math", "strict"}, {"plan", "exact"}, {"substeps", "8"}
+    TextPairs meshes;  ///< bodies whose shape is a file, e.g. "cloth.shirt": hash of its bytes
     std::vector<DeviceDescription> devices;
     std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "spring", "integrate"
     std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
@@ -46,10 +49,29 @@ struct PlanRecord {
     std::uint32_t first_strip = 0;
     std::uint32_t strip_count = 0;
     std::uint32_t device = 0;
+    std::uint32_t home = 0;   ///< the device that was given the task's strips
     std::uint32_t order = 0;  ///< position in that device's queue
     std::uint64_t items = 0;  ///< what the cost model counts
     double start = 0.0;       ///< predicted [s], relative to the substep's start
     double end = 0.0;
+};
+
+/// `to` needs what `from` wrote.
+struct DependencyRecord {
+    std::uint32_t from = 0;  ///< tasks
+    std::uint32_t to = 0;
+    std::uint32_t carried = 0;  ///< 1: from a task of one substep to a task of the next
+    double bytes = 0.0;         ///< what `to` reads of it
+
+    friend bool operator==(const DependencyRecord&, const DependencyRecord&) = default;
+};
+
+/// What the frames of one division of the strips have in common. Frames share it, and the writer
+/// writes it once.
+struct GraphRecord {
+    std::uint32_t graph = 0;            ///< its number, from 0
+    std::vector<std::uint32_t> strips;  ///< [device] how many it is given
+    std::vector<DependencyRecord> dependencies;
 };
 
 /// One task as it ran.
@@ -69,6 +91,14 @@ struct CostRecord {
     double fixed = 0.0;
     double per_item = 0.0;
     std::uint32_t samples = 0;  ///< executions the fit rests on
+};
+
+/// What planning took the way from one device to another to cost.
+struct LinkRecord {
+    std::uint32_t from = 0;  ///< devices
+    std::uint32_t to = 0;
+    double latency = 0.0;    ///< from a task's end to the start of one that waits for it [s]
+    double bandwidth = 0.0;  ///< [bytes/s]; may be infinite
 };
 
 /// One copy between the memories of two devices, made for `task`, the task that reads the data.
@@ -94,9 +124,13 @@ struct FrameRecord {
     double plan_time = 0.0;          ///< time the planner took [s]
     std::uint64_t transferred_bytes = 0;
     std::vector<double> busy;  ///< [devices] time spent in tasks [s]
+    std::string state_hash;    ///< at the frame's end, 32 hex digits; empty: not known
+    std::string planner;       ///< that found the plan: "in-order", "heft", ...
+    std::shared_ptr<const GraphRecord> graph;  ///< null: not known
     std::vector<PlanRecord> plan;
     std::vector<ExecutionRecord> executions;
-    std::vector<CostRecord> costs;
+    std::vector<CostRecord> costs;          ///< that the frame was planned with
+    std::vector<LinkRecord> links;          ///< likewise; empty with a single device
     std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
     double kinetic_energy = 0.0;            ///< [J]; the frame's end state
     double gravity_energy = 0.0;            ///< potential in gravity [J]

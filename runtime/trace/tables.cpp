@@ -30,10 +30,13 @@ RowType::Column column(const char* name, Member Record::*member, std::size_t bas
     return {name, native_type<Member>(), base + static_cast<std::size_t>(field - begin)};
 }
 
-/// Collects the columns of a Row<Record>, `frame` first.
+/// Collects the columns of a Row<Record>, that of its owner first.
 template <class Record>
 class RowColumns {
 public:
+    explicit RowColumns(const char* owner = "frame")
+        : columns_{column(owner, &Row<Record>::owner)} {}
+
     template <class Member>
     RowColumns& add(const char* name, Member Record::*member) {
         columns_.push_back(column(name, member, offsetof(Row<Record>, record)));
@@ -42,7 +45,7 @@ public:
     RowType type() const { return {sizeof(Row<Record>), columns_}; }
 
 private:
-    std::vector<RowType::Column> columns_{column("frame", &Row<Record>::frame)};
+    std::vector<RowType::Column> columns_;
 };
 
 hdf5::Handle compound_type(std::size_t size, const std::vector<RowType::Column>& columns) {
@@ -56,6 +59,15 @@ hdf5::Handle compound_type(std::size_t size, const std::vector<RowType::Column>&
 
 std::size_t align_to_double(std::size_t size) {
     return (size + sizeof(double) - 1) / sizeof(double) * sizeof(double);
+}
+
+/// Text of so many bytes, filled up with zeros.
+hdf5::Handle short_text_type(std::size_t size) {
+    constexpr const char* kWhat = "create a table's row type";
+    hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose, kWhat);
+    hdf5::check(H5Tset_size(type.id(), size), kWhat);
+    hdf5::check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), kWhat);
+    return type;
 }
 
 /// A device as HDF5 stores it: text by pointer.
@@ -82,7 +94,7 @@ hdf5::Handle device_type(hid_t text, hid_t boolean) {
 
 RowType::RowType(std::size_t struct_size, std::vector<Column> columns,
                  const std::vector<std::string>& doubles)
-    : size_(align_to_double(struct_size)) {
+    : size_(doubles.empty() ? struct_size : align_to_double(struct_size)) {
     for (const std::string& name : doubles) {
         columns.push_back({name, H5T_NATIVE_DOUBLE, size_});
         size_ += sizeof(double);
@@ -90,20 +102,29 @@ RowType::RowType(std::size_t struct_size, std::vector<Column> columns,
     memory_ = compound_type(size_, columns);
     file_ = hdf5::Handle(H5Tcopy(memory_.id()), H5Tclose, "create a table's row type");
     hdf5::check(H5Tpack(file_.id()), "create a table's row type");
-    frame_only_ = compound_type(sizeof(std::uint32_t), {{"frame", H5T_NATIVE_UINT32, 0}});
+    owner_only_ =
+        compound_type(sizeof(std::uint32_t), {{columns.front().name, H5T_NATIVE_UINT32, 0}});
 }
 
 RowType frame_row_type(std::size_t device_count) {
     std::vector<std::string> busy;
     for (std::size_t i = 0; i < device_count; ++i) busy.push_back("busy_" + std::to_string(i));
+    const hdf5::Handle planner = short_text_type(sizeof(FrameColumns::planner));
+    const hdf5::Handle hash = short_text_type(sizeof(FrameColumns::state_hash));
     return {sizeof(FrameColumns),
-            {column("frame", &FrameColumns::frame), column("sim_time", &FrameColumns::sim_time),
-             column("start", &FrameColumns::start), column("end", &FrameColumns::end),
+            {column("frame", &FrameColumns::frame),
+             column("sim_time", &FrameColumns::sim_time),
+             column("start", &FrameColumns::start),
+             column("end", &FrameColumns::end),
              column("planned_makespan", &FrameColumns::planned_makespan),
              column("measured_makespan", &FrameColumns::measured_makespan),
              column("lower_bound", &FrameColumns::lower_bound),
              column("plan_time", &FrameColumns::plan_time),
-             column("transferred_bytes", &FrameColumns::transferred_bytes)},
+             column("transferred_bytes", &FrameColumns::transferred_bytes),
+             column("graph", &FrameColumns::graph),
+
+             {"planner", planner.id(), offsetof(FrameColumns, planner)},
+             {"state_hash", hash.id(), offsetof(FrameColumns, state_hash)}},
             busy};
 }
 
@@ -124,6 +145,7 @@ RowType plan_row_type() {
         .add("first_strip", &PlanRecord::first_strip)
         .add("strip_count", &PlanRecord::strip_count)
         .add("device", &PlanRecord::device)
+        .add("home", &PlanRecord::home)
         .add("order", &PlanRecord::order)
         .add("items", &PlanRecord::items)
         .add("start", &PlanRecord::start)
@@ -149,6 +171,31 @@ RowType cost_row_type() {
         .add("fixed", &CostRecord::fixed)
         .add("per_item", &CostRecord::per_item)
         .add("samples", &CostRecord::samples)
+        .type();
+}
+
+RowType link_row_type() {
+    return RowColumns<LinkRecord>()
+        .add("from", &LinkRecord::from)
+        .add("to", &LinkRecord::to)
+        .add("latency", &LinkRecord::latency)
+        .add("bandwidth", &LinkRecord::bandwidth)
+        .type();
+}
+
+RowType division_row_type() {
+    return RowColumns<DivisionRecord>("graph")
+        .add("device", &DivisionRecord::device)
+        .add("strips", &DivisionRecord::strips)
+        .type();
+}
+
+RowType dependency_row_type() {
+    return RowColumns<DependencyRecord>("graph")
+        .add("from", &DependencyRecord::from)
+        .add("to", &DependencyRecord::to)
+        .add("carried", &DependencyRecord::carried)
+        .add("bytes", &DependencyRecord::bytes)
         .type();
 }
 

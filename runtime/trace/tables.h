@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,11 +15,13 @@ namespace weft::trace {
 
 inline constexpr const char* kFormatName = "weft-trace";
 inline constexpr int kFormatVersion = 1;
+/// In `frames`: the frame's graph was not recorded.
+inline constexpr std::uint32_t kNoGraph = 0xffffffff;
 
-/// A row as it lies in memory: the frame it belongs to, then the record.
+/// A row as it lies in memory: the frame (or graph) that it belongs to, then the record.
 template <class Record>
 struct Row {
-    std::uint32_t frame = 0;
+    std::uint32_t owner = 0;
     Record record;
 };
 
@@ -33,6 +36,15 @@ struct FrameColumns {
     double lower_bound = 0.0;
     double plan_time = 0.0;
     std::uint64_t transferred_bytes = 0;
+    std::uint32_t graph = 0;
+    std::array<char, 16> planner{};     ///< filled up with zeros
+    std::array<char, 32> state_hash{};  ///< all zero: not known
+};
+
+/// How many strips a graph gives to a device.
+struct DivisionRecord {
+    std::uint32_t device = 0;
+    std::uint32_t strips = 0;
 };
 
 /// The columns of `energies` that every run has, in joules; one per energy of the scene and
@@ -56,15 +68,15 @@ public:
             const std::vector<std::string>& doubles = {});
 
     hid_t memory() const { return memory_.id(); }
-    hid_t file() const { return file_.id(); }  ///< the same columns without gaps
-    hid_t frame_only() const { return frame_only_.id(); }
-    std::size_t size() const { return size_; }  ///< of a row in memory [bytes]
+    hid_t file() const { return file_.id(); }              ///< the same columns without gaps
+    hid_t owner_only() const { return owner_only_.id(); }  ///< its first column alone
+    std::size_t size() const { return size_; }             ///< of a row in memory [bytes]
 
 private:
     std::size_t size_;
     hdf5::Handle memory_;
     hdf5::Handle file_;
-    hdf5::Handle frame_only_;
+    hdf5::Handle owner_only_;
 };
 
 RowType frame_row_type(std::size_t device_count);
@@ -72,7 +84,12 @@ RowType energy_row_type(const std::vector<std::string>& energies);
 RowType plan_row_type();       ///< Row<PlanRecord>
 RowType execution_row_type();  ///< Row<ExecutionRecord>
 RowType cost_row_type();       ///< Row<CostRecord>
+RowType link_row_type();       ///< Row<LinkRecord>
 RowType transfer_row_type();   ///< Row<TransferRecord>
+
+// Rows that belong to a graph.
+RowType division_row_type();    ///< Row<DivisionRecord>
+RowType dependency_row_type();  ///< Row<DependencyRecord>
 
 void write_devices(hid_t run_group, const std::vector<DeviceDescription>& devices);
 std::vector<DeviceDescription> read_devices(hid_t run_group);

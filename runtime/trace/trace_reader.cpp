@@ -1,7 +1,9 @@
 #include "runtime/trace/trace_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -40,17 +42,17 @@ public:
         return read_as(type_.memory(), type_.size(), range);
     }
 
-    /// The rows that belong to `frame`; rows are in rising order of frames.
-    RowRange of_frame(std::uint32_t frame) const {
-        if (!frames_) frames_ = read_frame_column();
-        const auto [begin, end] = std::equal_range(frames_->begin(), frames_->end(), frame);
-        return {static_cast<std::size_t>(begin - frames_->begin()),
+    /// The rows that belong to a frame or graph; rows are in rising order of these.
+    RowRange rows_of(std::uint32_t owner) const {
+        if (!owners_) owners_ = read_owner_column();
+        const auto [begin, end] = std::equal_range(owners_->begin(), owners_->end(), owner);
+        return {static_cast<std::size_t>(begin - owners_->begin()),
                 static_cast<std::size_t>(end - begin)};
     }
 
     template <class Record>
-    std::vector<Record> records(std::uint32_t frame) const {
-        const RowRange range = of_frame(frame);
+    std::vector<Record> records(std::uint32_t owner) const {
+        const RowRange range = rows_of(owner);
         const std::vector<std::byte> bytes = read(range);
         std::vector<Record> records(range.count);
         for (std::size_t i = 0; i < range.count; ++i) {
@@ -64,12 +66,12 @@ public:
 private:
     std::string what() const { return "read table '" + name_ + "'"; }
 
-    std::vector<std::uint32_t> read_frame_column() const {
+    std::vector<std::uint32_t> read_owner_column() const {
         const std::vector<std::byte> bytes =
-            read_as(type_.frame_only(), sizeof(std::uint32_t), {0, rows_});
-        std::vector<std::uint32_t> frames(rows_);
-        std::memcpy(frames.data(), bytes.data(), bytes.size());
-        return frames;
+            read_as(type_.owner_only(), sizeof(std::uint32_t), {0, rows_});
+        std::vector<std::uint32_t> owners(rows_);
+        std::memcpy(owners.data(), bytes.data(), bytes.size());
+        return owners;
     }
 
     /// Columns that the file lacks stay 0.
@@ -93,7 +95,7 @@ private:
     RowType type_;
     Handle data_;
     std::size_t rows_ = 0;
-    mutable std::optional<std::vector<std::uint32_t>> frames_;
+    mutable std::optional<std::vector<std::uint32_t>> owners_;
 };
 
 template <class Columns>
@@ -101,6 +103,12 @@ Columns fixed_columns(const std::byte* row) {
     Columns columns;
     std::memcpy(&columns, row, sizeof(columns));
     return columns;
+}
+
+/// Up to the first zero byte.
+template <std::size_t Size>
+std::string text_of(const std::array<char, Size>& bytes) {
+    return {bytes.begin(), std::find(bytes.begin(), bytes.end(), '\0')};
 }
 
 std::vector<double> last_doubles(const std::byte* row, std::size_t row_size, std::size_t count) {
@@ -122,15 +130,21 @@ TextPairs read_pairs(hid_t parent, const std::string& name) {
 struct Tables {
     Tables(hid_t file, const RunDescription& run)
         : plan(file, "plan", trace::plan_row_type()),
+          divisions(file, "divisions", trace::division_row_type()),
+          dependencies(file, "dependencies", trace::dependency_row_type()),
           executions(file, "executions", trace::execution_row_type()),
           costs(file, "costs", trace::cost_row_type()),
+          links(file, "links", trace::link_row_type()),
           transfers(file, "transfers", trace::transfer_row_type()),
           energies(file, "energies", trace::energy_row_type(run.energies)),
           frames(file, "frames", trace::frame_row_type(run.devices.size())) {}
 
     TableReader plan;
+    TableReader divisions;
+    TableReader dependencies;
     TableReader executions;
     TableReader costs;
+    TableReader links;
     TableReader transfers;
     TableReader energies;
     TableReader frames;
@@ -158,7 +172,9 @@ public:
             record.plan = tables_->plan.records<PlanRecord>(record.frame);
             record.executions = tables_->executions.records<ExecutionRecord>(record.frame);
             record.costs = tables_->costs.records<CostRecord>(record.frame);
+            record.links = tables_->links.records<LinkRecord>(record.frame);
             record.transfers = tables_->transfers.records<TransferRecord>(record.frame);
+            record.graph = graph(graph_numbers_.at(index));
         });
         return record;
     }
@@ -170,6 +186,18 @@ public:
     std::vector<FrameRecord> frames_;
 
 private:
+    /// Null if it is not in the trace.
+    std::shared_ptr<const GraphRecord> graph(std::uint32_t number) const {
+        if (const auto known = graphs_.find(number); known != graphs_.end()) return known->second;
+        GraphRecord record{number, {}, tables_->dependencies.records<DependencyRecord>(number)};
+        for (const auto& share : tables_->divisions.records<trace::DivisionRecord>(number)) {
+            record.strips.push_back(share.strips);
+        }
+        auto& known = graphs_[number];
+        if (!record.strips.empty()) known = std::make_shared<const GraphRecord>(std::move(record));
+        return known;
+    }
+
     void check_it_is_hdf5() const {
         if (!std::filesystem::exists(path_)) throw UserError(path_ + ": no such trace");
         if (std::filesystem::is_directory(path_)) {
@@ -203,6 +231,9 @@ private:
         const Handle group(H5Gopen2(file_.id(), "run", H5P_DEFAULT), H5Gclose, "open group 'run'");
         started_ = hdf5::read_text_attribute(group.id(), "started");
         run_.scene_name = hdf5::read_text_attribute(group.id(), "scene_name");
+        if (H5Aexists(group.id(), "scene_path") > 0) {
+            run_.scene_path = hdf5::read_text_attribute(group.id(), "scene_path");
+        }
         run_.command = hdf5::read_text_attribute(group.id(), "command");
         run_.scene_text = hdf5::read_text(group.id(), "scene");
         run_.kinds = hdf5::read_texts(group.id(), "kinds");
@@ -210,6 +241,7 @@ private:
         run_.devices = trace::read_devices(group.id());
         run_.versions = read_pairs(group.id(), "versions");
         run_.settings = read_pairs(group.id(), "settings");
+        run_.meshes = read_pairs(group.id(), "meshes");
         run_.has_transfers = hdf5::exists(file_.id(), "transfers");
     }
 
@@ -230,6 +262,9 @@ private:
             frame.lower_bound = columns.lower_bound;
             frame.plan_time = columns.plan_time;
             frame.transferred_bytes = columns.transferred_bytes;
+            frame.planner = text_of(columns.planner);
+            frame.state_hash = text_of(columns.state_hash);
+            graph_numbers_.push_back(columns.graph);
             frame.busy = last_doubles(row, table.row_size(), run_.devices.size());
         }
     }
@@ -262,6 +297,8 @@ private:
     const std::string path_;
     Handle file_;
     std::optional<Tables> tables_;
+    std::vector<std::uint32_t> graph_numbers_;  // [frame]
+    mutable std::map<std::uint32_t, std::shared_ptr<const GraphRecord>> graphs_;
 };
 
 TraceReader::TraceReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}

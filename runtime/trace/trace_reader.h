@@ -28,7 +28,8 @@ public:
     bool finished() const;                  ///< false: going on, failed or killed
     const std::string& state_hash() const;  ///< empty until the run has finished
 
-    /// All complete frames in order, without their plan, executions, costs and transfers.
+    /// All complete frames in order, without their plan, graph, executions, costs, links and
+    /// transfers.
     const std::vector<FrameRecord>& frames() const;
 
     /// Everything about frames()[index].

@@ -1,10 +1,13 @@
 #include "runtime/trace/trace_writer.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <ctime>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "runtime/error.h"
@@ -28,10 +31,11 @@ public:
         : type_(std::move(type)), data_(file, name, type_.file(), {}, chunk_rows, deflate) {}
 
     template <class Record>
-    void append(std::uint32_t frame, const std::vector<Record>& records) {
+    void append(std::uint32_t owner, const std::vector<Record>& records) {
+        if (records.empty()) return;
         std::vector<Row<Record>> rows;
         rows.reserve(records.size());
-        for (const Record& record : records) rows.push_back({frame, record});
+        for (const Record& record : records) rows.push_back({owner, record});
         data_.append(type_.memory(), rows.data(), rows.size());
         data_.flush();
     }
@@ -55,6 +59,12 @@ private:
     GrowingDataset data_;
 };
 
+/// Cut where it is too long.
+template <std::size_t Size>
+void fill(std::array<char, Size>& column, const std::string& text) {
+    std::copy_n(text.begin(), std::min(text.size(), Size), column.begin());
+}
+
 constexpr unsigned kDeflate = 1;  // higher levels cost far more time and save little
 constexpr hsize_t kManyRows = 512;
 constexpr hsize_t kFewRows = 64;
@@ -62,10 +72,15 @@ constexpr hsize_t kFewRows = 64;
 struct Tables {
     Tables(hid_t file, const RunDescription& run)
         : plan(file, "plan", trace::plan_row_type(), kManyRows, kDeflate),
+          divisions(file, "divisions", trace::division_row_type(), kFewRows, 0),
+          dependencies(file, "dependencies", trace::dependency_row_type(), kManyRows, kDeflate),
           executions(file, "executions", trace::execution_row_type(), kManyRows, kDeflate),
           costs(file, "costs", trace::cost_row_type(), kFewRows, 0),
           energies(file, "energies", trace::energy_row_type(run.energies), kFewRows, 0),
           frames(file, "frames", trace::frame_row_type(run.devices.size()), kFewRows, 0) {
+        if (run.devices.size() > 1) {
+            links.emplace(file, "links", trace::link_row_type(), kFewRows, 0);
+        }
         if (run.has_transfers) {
             transfers.emplace(file, "transfers", trace::transfer_row_type(), kManyRows, kDeflate);
         }
@@ -73,16 +88,43 @@ struct Tables {
 
     /// The row of `frames` comes last: a frame that has one is complete.
     void append(const FrameRecord& record) {
+        if (record.graph) append_graph(*record.graph);
         plan.append(record.frame, record.plan);
         executions.append(record.frame, record.executions);
         costs.append(record.frame, record.costs);
+        if (links) links->append(record.frame, record.links);
         if (transfers) transfers->append(record.frame, record.transfers);
         append_energies(record);
-        frames.append(
-            trace::FrameColumns{record.frame, record.sim_time, record.start, record.end,
-                                record.planned_makespan, record.measured_makespan,
-                                record.lower_bound, record.plan_time, record.transferred_bytes},
-            record.busy);
+        append_frame(record);
+    }
+
+    /// Once, with the first frame that uses it.
+    void append_graph(const GraphRecord& record) {
+        if (!graphs_.insert(record.graph).second) return;
+        std::vector<trace::DivisionRecord> shares;
+        for (const std::uint32_t strips : record.strips) {
+            shares.push_back({static_cast<std::uint32_t>(shares.size()), strips});
+        }
+        divisions.append(record.graph, shares);
+        dependencies.append(record.graph, record.dependencies);
+    }
+
+    void append_frame(const FrameRecord& record) {
+        trace::FrameColumns row{record.frame,
+                                record.sim_time,
+                                record.start,
+                                record.end,
+                                record.planned_makespan,
+                                record.measured_makespan,
+                                record.lower_bound,
+                                record.plan_time,
+                                record.transferred_bytes,
+                                record.graph ? record.graph->graph : trace::kNoGraph,
+                                {},
+                                {}};
+        fill(row.planner, record.planner);
+        fill(row.state_hash, record.state_hash);
+        frames.append(row, record.busy);
     }
 
     void append_energies(const FrameRecord& record) {
@@ -103,16 +145,26 @@ struct Tables {
 
     template <class Action>
     void for_each(Action action) {
-        for (Table* table : {&plan, &executions, &costs, &energies, &frames}) action(*table);
+        for (Table* table :
+             {&plan, &divisions, &dependencies, &executions, &costs, &energies, &frames}) {
+            action(*table);
+        }
+        if (links) action(*links);
         if (transfers) action(*transfers);
     }
 
     Table plan;
+    Table divisions;
+    Table dependencies;
     Table executions;
     Table costs;
     Table energies;
     Table frames;
+    std::optional<Table> links;
     std::optional<Table> transfers;
+
+private:
+    std::set<std::uint32_t> graphs_;  // that are written
 };
 
 std::string now_utc() {
@@ -138,6 +190,7 @@ void write_run(hid_t file, const RunDescription& run) {
 
     const Handle group = hdf5::create_group(file, "run");
     hdf5::write_text_attribute(group.id(), "scene_name", run.scene_name);
+    hdf5::write_text_attribute(group.id(), "scene_path", run.scene_path);
     hdf5::write_text_attribute(group.id(), "command", run.command);
     hdf5::write_text_attribute(group.id(), "started", now_utc());
     hdf5::write_text(group.id(), "scene", run.scene_text);
@@ -146,6 +199,7 @@ void write_run(hid_t file, const RunDescription& run) {
     trace::write_devices(group.id(), run.devices);
     write_pairs(group.id(), "versions", run.versions);
     write_pairs(group.id(), "settings", run.settings);
+    if (!run.meshes.empty()) write_pairs(group.id(), "meshes", run.meshes);
 }
 
 }  // namespace

@@ -11,9 +11,8 @@ namespace weft {
 /// positions, velocities  [3 * vertices] float32 in the scene's own vertex order. What counts is
 /// the bits: -0.0 and 0.0 differ.
 ///
-/// Definition: two 64-bit lanes take the words (uint32) of the vertex count, all positions, all
-/// velocities, each by the step of FNV-1a and a rotation; they start from different values, and
-/// each ends in the mixing of SplitMix64.
+/// Definition: the hash of word_hash.h over the words (uint32) of the vertex count, all positions,
+/// all velocities.
 std::string state_hash(std::span<const float> positions, std::span<const float> velocities);
 
 }  // namespace weft

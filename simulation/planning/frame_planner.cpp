@@ -182,6 +182,7 @@ void FramePlanner::fill(const Division& division) {
         bounds_.apply(c.pinned, current_.plan);
     }
     current_.step = &c.step;
+    current_.graph = &c.pinned;
     current_.division = division;
     const double correction = choice_.correction(alternative_of(division));
     current_.substep_time = current_.plan.makespan * correction;

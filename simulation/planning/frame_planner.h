@@ -20,7 +20,8 @@ namespace weft {
 struct FramePlan {
     const Step* step = nullptr;  ///< owned by the planner
     Division division;
-    scheduler::Plan plan;  ///< of one substep [s]
+    scheduler::Plan plan;                         ///< of one substep [s]
+    const scheduler::TaskGraph* graph = nullptr;  ///< that it was made from; the planner's
     double substep_time =
         0.0;  ///< planned [s]: the plan's makespan, corrected as earlier plans were off
     double plan_time = 0.0;   ///< what planning took [s]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -9,11 +10,14 @@ namespace weft::synthetic {
 
 namespace {
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kFrameTime = 0.05;
 constexpr std::uint32_t kStrips = 16;
 constexpr std::uint32_t kItemsPerStrip = 5000;
 constexpr std::array<double, 2> kPerItem = {4.0e-9, 5.0e-9};  // device 1 is the slower one
 constexpr std::array<double, 2> kFixed = {2.0e-6, 8.0e-6};
+
+constexpr double kLatency = 2.0e-6;
 
 enum Kind : std::uint32_t { kPredict, kSpring, kSpringSeam, kBending, kVelocity };
 
@@ -37,6 +41,8 @@ public:
     }
 
     std::vector<PlanRecord> plan;
+    std::vector<DependencyRecord> dependencies;
+    std::uint32_t cut() const { return cut_; }
     double makespan() const { return std::max(free_[0], free_[1]); }
 
 private:
@@ -49,15 +55,31 @@ private:
               std::uint32_t count, std::uint64_t items) {
         const double start = free_[device];
         free_[device] += predicted(device, items);
-        plan.push_back({static_cast<std::uint32_t>(plan.size()), kind, iteration, first, count,
-                        device, order_[device]++, items, start, free_[device]});
+        const auto number = static_cast<std::uint32_t>(plan.size());
+        for (std::uint32_t d = 0; d < 2; ++d) {
+            if (last_[d] != kNone && (d == device || meeting_[device])) {
+                dependencies.push_back({last_[d], number, 0, 12800.0});
+            }
+        }
+        meeting_[device] = false;
+        last_[device] = number;
+        plan.push_back({number, kind, iteration, first, count, device, device, order_[device]++,
+                        items, start, free_[device]});
     }
 
-    void meet() { free_[0] = free_[1] = std::max(free_[0], free_[1]) + 2.0e-6; }
+    /// Both wait for each other.
+    void meet() {
+        free_[0] = free_[1] = std::max(free_[0], free_[1]) + kLatency;
+        meeting_ = {true, true};
+    }
+
+    static constexpr std::uint32_t kNone = 0xffffffff;
 
     std::uint32_t cut_;
     std::array<double, 2> free_{};
     std::array<std::uint32_t, 2> order_{};
+    std::array<std::uint32_t, 2> last_{kNone, kNone};  // task of each device
+    std::array<bool, 2> meeting_{};                    // its next task waits for the other device
 };
 
 /// Runs the plan with times that scatter by a few per cent.
@@ -88,6 +110,7 @@ void execute(const Shape& shape, FrameRecord& record, double plan_makespan) {
 RunDescription describe(const Shape& shape) {
     RunDescription run;
     run.scene_name = "synthetic";
+    run.scene_path = "/somewhere/synthetic.toml";
     run.scene_text = "[scene]\nname = \"synthetic\"  # with a non-ASCII word: Köper\n";
     run.command = "weft run synthetic.toml --device cpu/1+opencl:0/1";
     run.versions = {{"weft", "0.1.0"}};
@@ -111,6 +134,11 @@ FrameRecord frame(const Shape& shape, std::uint32_t number) {
     record.lower_bound = 0.93 * record.planned_makespan;
     record.busy = {0.0, 0.0};
     record.plan = maker.plan;
+    record.planner = "in-order";
+    record.graph = std::make_shared<const GraphRecord>(
+        GraphRecord{number % 3, {maker.cut(), kStrips - maker.cut()}, maker.dependencies});
+    record.links = {{0, 1, kLatency, kInfinite}, {1, 0, kLatency, kInfinite}};
+    record.state_hash = std::string(31, 'a') + static_cast<char>('0' + number % 10);
     execute(shape, record, maker.makespan());
     for (std::uint32_t kind = 0; kind <= kVelocity; ++kind) {
         for (std::uint32_t device = 0; device < 2; ++device) {

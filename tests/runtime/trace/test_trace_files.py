@@ -12,7 +12,8 @@ import pytest
 FIXTURE = pathlib.Path(os.environ["WEFT_BIN"]) / "trace_fixture"
 ROOT = pathlib.Path(os.environ["WEFT_ROOT"])
 WEFT = os.environ["WEFT"]
-TABLES = ["costs", "energies", "executions", "frames", "plan", "transfers"]
+TABLES = ["costs", "dependencies", "divisions", "energies", "executions", "frames", "links", "plan",
+          "transfers"]
 
 
 @pytest.fixture(scope="module")
@@ -34,8 +35,10 @@ def complete_frames(file):
     """Numbers of the complete frames; checks that all tables hold all of them."""
     frames = file["frames"]["frame"]
     assert numpy.array_equal(frames, numpy.arange(len(frames)))
-    for name in ("plan", "executions", "costs", "energies", "transfers"):
+    for name in ("plan", "executions", "costs", "energies", "links", "transfers"):
         assert set(frames) <= set(file[name]["frame"]), name
+    graphs = set(file["frames"]["graph"])
+    assert graphs <= set(file["divisions"]["graph"]) and graphs <= set(file["dependencies"]["graph"])
     last = file["executions"][:]
     last = last[last["frame"] == frames[-1]]
     first = file["executions"][:]

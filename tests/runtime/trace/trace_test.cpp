@@ -57,6 +57,8 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     const RunDescription run = synthetic::describe(shape);
     EXPECT_EQ(reader.run().scene_text, run.scene_text);
     EXPECT_EQ(reader.run().command, run.command);
+    EXPECT_EQ(reader.run().scene_path, run.scene_path);
+    EXPECT_TRUE(reader.run().meshes.empty());
     EXPECT_EQ(reader.run().kinds, run.kinds);
     EXPECT_EQ(reader.run().energies, run.energies);
     EXPECT_EQ(reader.run().settings, run.settings);
@@ -80,6 +82,17 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.plan[20].first_strip, expected.plan[20].first_strip);
     EXPECT_EQ(frame.plan[20].items, expected.plan[20].items);
     EXPECT_EQ(frame.plan[20].end, expected.plan[20].end);
+    EXPECT_EQ(frame.plan[20].home, expected.plan[20].home);
+    EXPECT_EQ(frame.planner, "in-order");
+    EXPECT_EQ(frame.state_hash, expected.state_hash);
+    ASSERT_TRUE(frame.graph);
+    EXPECT_EQ(frame.graph->graph, 7U % 3U);
+    EXPECT_EQ(frame.graph->strips, expected.graph->strips);
+    EXPECT_EQ(frame.graph->dependencies, expected.graph->dependencies);
+    ASSERT_EQ(frame.links.size(), 2U);
+    EXPECT_EQ(frame.links[1].from, 1U);
+    EXPECT_EQ(frame.links[1].latency, expected.links[1].latency);
+    EXPECT_EQ(frame.links[1].bandwidth, expected.links[1].bandwidth);
     ASSERT_EQ(frame.executions.size(), expected.executions.size());
     EXPECT_EQ(frame.executions.back().task, expected.executions.back().task);
     EXPECT_EQ(frame.executions.back().end, expected.executions.back().end);
@@ -87,6 +100,36 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.costs[3].per_item, expected.costs[3].per_item);
     ASSERT_EQ(frame.transfers.size(), expected.transfers.size());
     EXPECT_EQ(frame.transfers[5].start, expected.transfers[5].start);
+}
+
+TEST_F(Trace, FramesOfOneDivisionShareTheirGraph) {
+    write({}, 9);
+    const TraceReader reader(file());
+    EXPECT_EQ(reader.frame(1).graph, reader.frame(4).graph);
+    EXPECT_NE(reader.frame(1).graph, reader.frame(2).graph);
+    std::size_t rows = 0;  // as often as there are divisions, not frames
+    for (std::uint32_t i = 0; i < 3; ++i)
+        rows += synthetic::frame({}, i).graph->dependencies.size();
+    const hdf5::Session session;
+    const hdf5::Handle opened = hdf5::open_to_read(file().string());
+    const hdf5::Handle table(H5Dopen2(opened.id(), "dependencies", H5P_DEFAULT), H5Dclose, "");
+    const hdf5::Handle space(H5Dget_space(table.id()), H5Sclose, "");
+    EXPECT_EQ(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id())), rows);
+}
+
+TEST_F(Trace, FrameWithoutAGraphIsReadable) {
+    {
+        TraceWriter writer(file(), synthetic::describe({}));
+        FrameRecord record = synthetic::frame({}, 0);
+        record.graph = nullptr;
+        record.state_hash.clear();
+        writer.append(std::move(record));
+        writer.append(synthetic::frame({}, 1));
+    }
+    const TraceReader reader(file());
+    EXPECT_FALSE(reader.frame(0).graph);
+    EXPECT_EQ(reader.frame(0).state_hash, "");
+    EXPECT_TRUE(reader.frame(1).graph);
 }
 
 TEST_F(Trace, HasNoTransfersTableWhereDevicesShareMemory) {

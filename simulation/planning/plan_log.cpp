@@ -1,0 +1,117 @@
+#include "simulation/planning/plan_log.h"
+
+namespace weft {
+
+namespace {
+
+std::uint32_t u32(int value) { return static_cast<std::uint32_t>(value); }
+
+void add(std::vector<DependencyRecord>& records, const std::vector<Dependency>& dependencies,
+         std::uint32_t carried) {
+    for (const Dependency& d : dependencies) {
+        records.push_back({u32(d.from), u32(d.to), carried, d.bytes});
+    }
+}
+
+/// Without device, place in its queue and times.
+PlanRecord task_record(scheduler::TaskId id, const Task& task, const std::vector<int>& homes) {
+    PlanRecord record;
+    record.task = id;
+    record.kind = u32(task.body->kind);
+    record.iteration = u32(task.iteration);
+    record.first_strip = u32(task.first_strip);
+    record.strip_count = u32(task.end_strip - task.first_strip);
+    record.home = u32(homes[static_cast<std::size_t>(task.region)]);
+    record.items = static_cast<std::uint64_t>(task.items);
+    return record;
+}
+
+std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& numbers) {
+    std::vector<PlanRecord> records;
+    std::vector<int> homes = plan.division.devices();
+    for (int& home : homes) home = numbers[static_cast<std::size_t>(home)];
+    for (scheduler::ProcessorId d = 0; d < plan.graph->processor_count(); ++d) {
+        std::uint32_t order = 0;
+        for (const scheduler::TaskId id : plan.plan.tasks_on(d)) {
+            PlanRecord& record =
+                records.emplace_back(task_record(id, plan.step->tasks()[id], homes));
+            record.device = u32(numbers[d]);
+            record.order = order++;
+            record.start = plan.plan.placements[id].start;
+            record.end = plan.plan.placements[id].end;
+        }
+    }
+    return records;
+}
+
+GraphRecord graph_record(const Step& step, const Division& division) {
+    GraphRecord record;
+    record.strips.assign(division.strips.begin(), division.strips.end());
+    add(record.dependencies, step.dependencies(), 0);
+    add(record.dependencies, step.carried(), 1);
+    return record;
+}
+
+std::vector<CostRecord> costs_of(const scheduler::CostModel& costs,
+                                 const std::vector<int>& numbers) {
+    std::vector<CostRecord> records;
+    for (std::uint32_t kind = 0; kind < costs.kinds(); ++kind) {
+        for (std::uint32_t d = 0; d < costs.devices(); ++d) {
+            const auto& fit = costs.fit(kind, d);
+            records.push_back(
+                {kind, u32(numbers[d]), fit.cost.fixed, fit.cost.per_item, fit.frames});
+        }
+    }
+    return records;
+}
+
+std::vector<LinkRecord> links_of(const scheduler::TaskGraph& graph,
+                                 const std::vector<int>& numbers) {
+    std::vector<LinkRecord> links;
+    for (scheduler::ProcessorId p = 0; p < graph.processor_count(); ++p) {
+        for (scheduler::ProcessorId q = 0; q < graph.processor_count(); ++q) {
+            if (p == q) continue;
+            links.push_back(
+                {u32(numbers[p]), u32(numbers[q]), graph.latency(p, q), graph.bandwidth(p, q)});
+        }
+    }
+    return links;
+}
+
+}  // namespace
+
+void PlanLog::record(const FramePlan& plan, const scheduler::CostModel& costs,
+                     const std::vector<int>& numbers, FrameRecord& frame) {
+    frame.planner = plan.plan.found_by;
+    frame.graph = graph_of(plan, numbers);
+    frame.plan = tasks_of(plan, numbers);
+    frame.costs = costs_of(costs, numbers);
+    frame.links = links_of(*plan.graph, numbers);
+}
+
+std::shared_ptr<const GraphRecord> PlanLog::graph_of(const FramePlan& plan,
+                                                     const std::vector<int>& numbers) {
+    Division division{std::vector<int>(devices_, 0)};
+    for (std::size_t d = 0; d < numbers.size(); ++d) {
+        division.strips[static_cast<std::size_t>(numbers[d])] = plan.division.strips[d];
+    }
+    GraphRecord own = graph_record(*plan.step, division);
+    own.graph = static_cast<std::uint32_t>(graphs_.size());
+    for (const auto& known : graphs_) {
+        if (known->strips == own.strips && known->dependencies == own.dependencies) return known;
+    }
+    return graphs_.emplace_back(std::make_shared<const GraphRecord>(std::move(own)));
+}
+
+FrameRecord record_of(const Step& step, const Division& division) {
+    FrameRecord frame;
+    frame.graph = std::make_shared<const GraphRecord>(graph_record(step, division));
+    const std::vector<int> homes = division.devices();
+    for (const Task& task : step.tasks()) {
+        frame.plan.push_back(
+            task_record(static_cast<scheduler::TaskId>(frame.plan.size()), task, homes));
+    }
+    return frame;
+}
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#include "simulation/scene/mesh_files.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+
+#include "runtime/error.h"
+#include "simulation/word_hash.h"
+
+namespace weft {
+
+std::vector<BodyMesh> mesh_files(const Scene& scene) {
+    std::vector<BodyMesh> list;
+    for (const Cloth& cloth : scene.cloths) {
+        const auto* file = std::get_if<MeshFile>(&cloth.shape);
+        if (file != nullptr) list.push_back({"cloth." + cloth.name, file->path});
+    }
+    return list;
+}
+
+std::string file_hash(const std::string& path) {
+    errno = 0;
+    std::ifstream stream(path, std::ios::binary);
+    WordHash hash;
+    std::uint32_t length = 0;
+    std::array<char, 1 << 16> block;
+    while (stream) {
+        block.fill('\0');  // the last word of the file is filled up with zeros
+        stream.read(block.data(), block.size());
+        const auto count = static_cast<std::size_t>(stream.gcount());
+        for (std::size_t i = 0; i < count; i += sizeof(std::uint32_t)) {
+            std::uint32_t word = 0;
+            std::memcpy(&word, block.data() + i, sizeof(word));
+            hash.add(word);
+        }
+        length += static_cast<std::uint32_t>(count);
+    }
+    hash.add(length);
+    if (!stream.eof()) throw UserError(path + ": " + std::strerror(errno != 0 ? errno : EIO));
+    return hash.text();
+}
+
+}  // namespace weft

@@ -1,0 +1,219 @@
+"""`weft plan TRACE.h5`: a recorded frame planned again, as it was and on other machines."""
+
+import json
+
+import h5py
+import pytest
+from recorded import divided, expect_unreadable_traces_refused, made_up, old, record
+from recorded import record_killed, two_devices
+from weft_program import expect_error, weft, weft_json
+
+
+@pytest.fixture(scope="module")
+def single(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("single"), "--device", "cpu/1")
+
+
+@pytest.fixture(scope="module")
+def halved(tmp_path_factory):
+    return divided(tmp_path_factory.mktemp("halved"))
+
+
+@pytest.fixture(scope="module")
+def mixed(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("mixed"), *two_devices())
+
+
+def expect_reproduced(path):
+    """Each frame's planner, with the recorded costs, plans it as the run did."""
+    with h5py.File(path) as trace:
+        frames, plan = trace["frames"][:], trace["plan"][:]
+        names = trace["run/devices"].len()
+    for frame in frames:
+        again = weft_json("plan", path, "--frame", frame["frame"], "--pinned", "--algorithm",
+                          frame["planner"].decode())
+        assert again["recorded"]["planner"] == frame["planner"].decode()
+        own = plan[plan["frame"] == frame["frame"]]
+        assert again["makespan"] == own["end"].max() == again["recorded"]["makespan"]
+        recorded = {row["task"]: row for row in own}
+        for number, task in enumerate(again["tasks"]):
+            assert int(task["name"].split()[0]) == number
+            assert int(task["processor"].split()[0]) == recorded[number]["device"] < names
+            assert (task["start"], task["end"]) == (recorded[number]["start"],
+                                                    recorded[number]["end"])
+        assert again["lower_bound"] <= again["makespan"]
+
+
+def test_plans_of_one_device(single):
+    expect_reproduced(single)
+
+
+def test_plans_of_a_mixture(mixed):
+    expect_reproduced(mixed)
+
+
+def test_plans_of_a_given_division(halved):
+    expect_reproduced(halved)
+    with h5py.File(halved) as trace:
+        assert set(trace["plan"]["device"]) == {0, 1}
+        assert len(set(trace["frames"]["graph"])) == 1
+
+
+def test_last_frame_is_the_default(single):
+    assert weft_json("plan", single)["frame"] == 7
+    assert weft_json("plan", single, "--frame", 3)["frame"] == 3
+
+
+def test_printed_costs_are_the_recorded_ones(mixed, tmp_path):
+    costs = weft("plan", mixed, "--frame", 4, "--print-costs").stdout
+    (tmp_path / "costs.json").write_text(costs)
+    for more in [["--pinned"], []]:
+        common = ["--frame", 4, "--algorithm", "heft", *more]
+        own = weft_json("plan", mixed, *common)
+        same = weft_json("plan", mixed, *common, "--costs", tmp_path / "costs.json")
+        assert {**own, "plan_us": 0} == {**same, "plan_us": 0}
+
+
+def test_another_machine(mixed, tmp_path):
+    """Twice as fast in everything: half the makespan. With a third device: never longer."""
+    costs = json.loads(weft("plan", mixed, "--frame", 4, "--print-costs").stdout)
+    own = weft_json("plan", mixed, "--frame", 4, "--algorithm", "heft")
+
+    def planned(costs):
+        (tmp_path / "costs.json").write_text(json.dumps(costs))
+        return weft_json("plan", mixed, "--frame", 4, "--algorithm", "heft", "--costs",
+                         tmp_path / "costs.json")
+
+    halved = json.loads(json.dumps(costs))
+    for kind in halved["costs"].values():
+        for cost in kind:
+            cost["fixed"] /= 2
+            cost["per_item"] /= 2
+    halved["latency"] = [[value / 2 for value in row] for row in costs["latency"]]
+    assert planned(halved)["makespan"] == pytest.approx(own["makespan"] / 2, rel=1e-12)
+
+    alone = {"devices": ["slow", "fast"], "costs": {}, "latency": 1e-6, "bandwidth": 1e9}
+    for name, kind in costs["costs"].items():
+        alone["costs"][name] = [None, kind[0]]
+    result = planned(alone)
+    assert {task["processor"] for task in result["tasks"]} == {"fast"}
+    assert result["makespan"] == pytest.approx(
+        sum(task["end"] - task["start"] for task in result["tasks"]))
+
+
+def test_strips_divided_as_they_were(halved):
+    """Made anew from the scene, the graph of a division is the recorded one."""
+    own = weft_json("plan", halved, "--frame", 4, "--algorithm", "heft", "--pinned")
+    strips = ",".join(map(str, own["strips"]))
+    again = weft_json("plan", halved, "--frame", 4, "--algorithm", "heft", "--pinned", "--strips",
+                      strips)
+    assert len(own["strips"]) == 2 and {**own, "plan_us": 0} == {**again, "plan_us": 0}
+
+
+def test_best_division(single, tmp_path):
+    """A recorded run of one device, on machines of two."""
+    count = sum(weft_json("plan", single)["strips"])
+    kinds = json.loads(weft("plan", single, "--print-costs").stdout)["costs"]
+
+    def planned(factor, latency, strips="auto"):
+        cost = {"fixed": 1e-7, "per_item": 1e-8}
+        second = factor and {key: factor * value for key, value in cost.items()}
+        two = {"devices": ["a", "b"], "latency": latency,
+               "costs": {kind: [cost, second] for kind in kinds}}
+        (tmp_path / "two.json").write_text(json.dumps(two))
+        return weft_json("plan", single, "--costs", tmp_path / "two.json", "--strips", strips,
+                         "--algorithm", "in-order", "--pinned")
+
+    alike = planned(1.0, 0.0)
+    assert sum(alike["strips"]) == count and abs(alike["strips"][0] - alike["strips"][1]) <= 2
+    assert alike["makespan"] < 0.75 * planned(1.0, 0.0, f"{count},0")["makespan"]
+    slower = planned(4.0, 0.0)
+    assert slower["strips"][0] > slower["strips"][1] > 0
+    assert planned(1.0, 1.0)["strips"] in ([count, 0], [0, count])  # a second for each wait
+    assert planned(None, 0.0)["strips"] == [count, 0]  # b cannot run anything
+    best = min(planned(2.0, 1e-6, f"{n},{count - n}")["makespan"] for n in range(count + 1))
+    assert planned(2.0, 1e-6)["makespan"] <= 1.02 * best
+
+
+def test_compare_and_text(mixed):
+    compared = weft_json("plan", mixed, "--compare", "--time-limit", 0.5)
+    assert [row["algorithm"] for row in compared["rows"]][:2] == ["heft", "peft"]
+    assert all(row["makespan"] >= compared["lower_bound"] * (1 - 1e-9) for row in compared["rows"])
+    assert compared["recorded"]["measured"] > 0
+    text = weft("plan", mixed, "--frame", 2, "--algorithm", "heft").stdout
+    assert "frame 2: one of its 2 substeps" in text and "recorded     planned" in text
+    assert "start [us]" in text and "makespan" in text
+
+
+def test_killed_run(tmp_path):
+    trace = record_killed(tmp_path)
+    assert weft_json("plan", trace, "--frame", 2)["makespan"] > 0
+
+
+def test_bad_traces(tmp_path):
+    expect_unreadable_traces_refused(tmp_path, "plan")
+
+
+def test_bad_requests(single, tmp_path):
+    expect_error(weft("plan", single, "--frame", 8), 2, "trace.h5: no frame 8; it has 0 to 7")
+    expect_error(weft("plan", single, "--frame", -1), 2, "--frame")
+    expect_error(weft("plan", old(tmp_path)), 2, "made_up.h5: frame 5", "older weft")
+    for strips in ["", "x", "1,", "-1,1", "1.5"]:
+        expect_error(weft("plan", single, "--strips", strips), 2, "--strips")
+    expect_error(weft("plan", single, "--strips", "3"), 2, "--strips 3: expected a number for each "
+                 "of 1 devices")
+    (tmp_path / "graph.json").write_text(
+        '{"processors": ["p"], "tasks": [{"name": "a", "cost": [1]}]}')
+    for option in [["--frame", 1], ["--costs", "x.json"], ["--pinned"],
+                   ["--strips", "auto"], ["--print-costs"]]:
+        expect_error(weft("plan", "graph.json", *option, cwd=tmp_path), 2, option[0],
+                     "is for traces")
+
+
+COST = {"fixed": 1e-6, "per_item": 1e-9}
+BAD_COSTS = {
+    "no_object": ([1], ["expected one object"]),
+    "no_devices": ({"costs": {}}, ["devices: is missing"]),
+    "empty_devices": ({"devices": [], "costs": {}}, ["devices: at least one"]),
+    "twice": ({"devices": ["a", "a"], "costs": {}}, ["devices[1]: duplicate device 'a'"]),
+    "slip": ({"devices": ["a"], "cost": {}}, ["cost: unknown key; did you mean 'costs'?"]),
+    "missing_kind": ({"predict": [COST]}, ["costs.spring: is missing"]),
+    "unknown_kind": ({"sprin": [COST]}, ["costs.sprin", "did you mean 'spring'?"]),
+    "wrong_count": ({"predict": [COST, COST]}, ["costs.predict: 2 costs for 1 devices"]),
+    "no_cost": ({"predict": [3]}, ["costs.predict[0]: expected", "fixed"]),
+    "no_fixed": ({"predict": [{"per_item": 1}]}, ["costs.predict[0].fixed: is missing"]),
+    "negative": ({"predict": [{"fixed": -1, "per_item": 1}]},
+                 ["costs.predict[0].fixed: expected seconds >= 0, not -1"]),
+    "text": ({"predict": [{"fixed": 1, "per_item": "1"}]}, ["costs.predict[0].per_item", '"1"']),
+}
+
+
+@pytest.mark.parametrize("name", BAD_COSTS)
+def test_bad_costs(name, tmp_path):
+    content, parts = BAD_COSTS[name]
+    whole = isinstance(content, list) or "costs" in content or "devices" in content
+    (tmp_path / "costs.json").write_text(
+        json.dumps(content if whole else {"devices": ["a"], "costs": content}))
+    result = weft("plan", made_up(tmp_path), "--costs", "costs.json", cwd=tmp_path)
+    expect_error(result, 2, "costs.json: ", *parts)
+
+
+def test_more_bad_costs(tmp_path):
+    trace = made_up(tmp_path)
+    costs = json.loads(weft("plan", trace, "--print-costs").stdout)
+
+    def refused(change, *parts, options=()):
+        (tmp_path / "costs.json").write_text(json.dumps({**costs, **change}))
+        expect_error(weft("plan", trace, "--costs", "costs.json", *options, cwd=tmp_path), 2, *parts)
+
+    refused({"latency": [1]}, "latency: expected a number or 2 rows")
+    refused({"bandwidth": 0}, "bandwidth: expected a number > 0, not 0")
+    nobody = {name: [None, None] for name in costs["costs"]}
+    refused({"costs": nobody}, "no device can run task '0 predict.0 ")
+    second = {name: [None, COST] for name in costs["costs"]}
+    refused({"costs": second}, "no device can run task", "pinned to device 0",
+            options=["--pinned"])
+    (tmp_path / "costs.json").write_text("{")
+    expect_error(weft("plan", trace, "--costs", "costs.json", cwd=tmp_path), 2,
+                 "costs.json:1:2: not JSON")
+    expect_error(weft("plan", trace, "--costs", "none.json", cwd=tmp_path), 2, "none.json: No such")
