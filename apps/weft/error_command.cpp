@@ -79,7 +79,7 @@ void add_error_command(CLI::App& app) {
         "the minimum by Newton's method in double precision: relative error = (E - E*)/(E0 - E*).\n"
         "A point is one whole step with so many iterations, timed without the evaluation of E, "
         "the\n"
-        "median of three. Writes error.csv, error.h5 and error.png. docs/solvers.md explains.\n\n"
+        "median of three. Writes error.csv and error.h5. docs/solvers.md explains.\n\n"
         "Example:\n"
         "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1");
     command->callback([options] { run_error(*options); });

@@ -21,8 +21,9 @@ Corners corners_of(const ElementEnergies& family, int element, std::span<const V
     return corners;
 }
 
-/// The nearest positive semi-definite matrix: negative eigenvalues become 0.
-void project(Blocks& blocks, std::size_t corners) {
+/// Takes away a part of all negative eigenvalues: all of them for the nearest positive
+/// semi-definite matrix.
+void project(Blocks& blocks, std::size_t corners, double part) {
     const auto size = static_cast<Eigen::Index>(3 * corners);
     Eigen::MatrixXd whole(size, size);
     const auto each = [&](auto visit) {
@@ -42,8 +43,9 @@ void project(Blocks& blocks, std::size_t corners) {
     each([](double from, double& to) { to = from; });
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
     if (solver.eigenvalues()(0) >= 0.0) return;
-    whole = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
-            solver.eigenvectors().transpose();
+    const Eigen::VectorXd negative = solver.eigenvalues().cwiseMin(0.0);
+    whole -=
+        part * solver.eigenvectors() * negative.asDiagonal() * solver.eigenvectors().transpose();
     each([](double& to, double from) { to = from; });
 }
 
@@ -142,7 +144,7 @@ double IncrementalPotential::force_size(std::span<const Vec3> x) const {
     return size;
 }
 
-const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, Curvature curvature) {
+const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double projection) {
     hessian_.set_zero();
     for (std::size_t v = 0; v < predicted_.size(); ++v) {
         if (diagonal_[v] >= 0) hessian_.add(diagonal_[v], inertia_[v] * Mat3{});
@@ -154,7 +156,7 @@ const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, Curvat
             Blocks blocks;
             family.hessian(e, corners_of(family, e, x).data(), blocks.data());
             const std::size_t corners = family.corners(e).size();
-            if (curvature == Curvature::kProjected) project(blocks, corners);
+            if (projection > 0.0) project(blocks, corners, projection);
             for (std::size_t b = 0; b < corners * corners; ++b, ++slot) {
                 if (*slot >= 0) hessian_.add(*slot, blocks[b]);
             }

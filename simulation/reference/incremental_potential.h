@@ -40,12 +40,10 @@ public:
     /// forces that meet there [N], inertia included.
     double force_size(std::span<const Vec3> x) const;
 
-    enum class Curvature {
-        kExact,
-        kProjected,  ///< every element's Hessian without its negative eigenvalues
-    };
     /// d2E/dx2 [N/m] of the free vertices; valid until the next call.
-    const BlockMatrix& hessian(std::span<const Vec3> x, Curvature curvature);
+    /// projection: how much of the elements' negative curvature is taken away. 0: the exact
+    /// Hessian; 1: the sum of positive semi-definite ones; between them, a mixture.
+    const BlockMatrix& hessian(std::span<const Vec3> x, double projection);
 
 private:
     void make_pattern();

@@ -9,9 +9,7 @@ namespace weft {
 
 namespace {
 
-using Curvature = IncrementalPotential::Curvature;
-
-constexpr int kMaxIterations = 300;
+constexpr int kMaxIterations = 1000;
 constexpr double kDecrease = 1e-4;  // Armijo's constant
 /// A predicted decrease of E below this part of E is lost in its rounding; the gradient, which is
 /// not, then judges a step.
@@ -83,10 +81,16 @@ private:
     void find_direction() {
         std::vector<Vec3> force(gradient_.size());
         for (std::size_t v = 0; v < force.size(); ++v) force[v] = -gradient_[v];
-        for (const Curvature curvature : {Curvature::kExact, Curvature::kProjected}) {
-            const BlockMatrix& hessian = potential_.hessian(x_, curvature);
+        // As little projection as will do: the less, the faster it converges. Next time, a quarter.
+        constexpr double kLeast = 0.02;
+        double projection = projection_ > kLeast ? projection_ / 4.0 : 0.0;
+        for (;;) {
+            const BlockMatrix& hessian = potential_.hessian(x_, projection);
             const auto result = linear_.solve(hessian, force, tolerance(), direction_);
+            projection_ = projection;
             if (result != LinearSolver::Result::kIndefinite) return;
+            if (projection == 1.0) break;
+            projection = std::clamp(4.0 * projection, kLeast, 1.0);
         }
         // Rounding made even the projected one indefinite: go down by inertia alone.
         for (std::size_t v = 0; v < force.size(); ++v) {
@@ -116,6 +120,7 @@ private:
     double energy_;
     std::vector<Vec3> gradient_;
     double first_gap_ = 0.0;
+    double projection_ = 0.0;
 };
 
 }  // namespace

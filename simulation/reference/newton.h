@@ -30,9 +30,9 @@ struct Minimum {
 inline constexpr double kSolvedGap = 1e-9;
 
 /// Minimises by Newton's method from `start`, to the last digits: with the exact Hessian where it
-/// is positive definite, else with the projected one (Teran et al. 2005), and a backtracking line
-/// search. Deterministic. Check the certificate: `relative_gap` beyond kSolvedGap is no minimum.
-/// progress: told of each iteration; may be empty
+/// is positive definite, else with a part of the elements' negative curvature projected away (all
+/// of it: Teran et al. 2005), and a backtracking line search. Deterministic. Check the certificate:
+/// `relative_gap` beyond kSolvedGap is no minimum. progress: told of each iteration; may be empty
 Minimum minimise(IncrementalPotential& potential, std::vector<Vec3> start,
                  const std::function<void(const Certificate&)>& progress = {});
 
