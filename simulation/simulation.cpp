@@ -81,18 +81,46 @@ Simulation::State Simulation::save() const {
 void Simulation::write(const State& state) {
     std::copy(state.positions.begin(), state.positions.end(), model_->positions->data());
     std::copy(state.velocities.begin(), state.velocities.end(), model_->velocities->data());
+    const auto buffers = solver_->state();
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        std::copy(state.solver[b].begin(), state.solver[b].end(),
+                  static_cast<std::byte*>(buffers[b]->host()));
+    }
 }
 
 void Simulation::restore(const State& state) {
     write(state);
     executor_->host_wrote(*model_->positions);
     executor_->host_wrote(*model_->velocities);
-    const auto buffers = solver_->state();
-    for (std::size_t b = 0; b < buffers.size(); ++b) {
-        std::copy(state.solver[b].begin(), state.solver[b].end(),
-                  static_cast<std::byte*>(buffers[b]->host()));
-        executor_->host_wrote(*buffers[b]);
+    for (BufferStorage* buffer : solver_->state()) executor_->host_wrote(*buffer);
+}
+
+Checkpoint Simulation::checkpoint() const {
+    const auto bytes = [](const std::vector<float4>& values) {
+        const auto* data = reinterpret_cast<const std::byte*>(values.data());
+        return std::vector<std::byte>(data, data + values.size() * sizeof(float4));
+    };
+    State state = save();
+    Checkpoint checkpoint{frame_, {bytes(state.positions), bytes(state.velocities)}};
+    for (auto& buffer : state.solver) checkpoint.buffers.push_back(std::move(buffer));
+    return checkpoint;
+}
+
+void Simulation::resume(const Checkpoint& checkpoint) {
+    State state = save();
+    std::vector<std::span<std::byte>> buffers{std::as_writable_bytes(std::span(state.positions)),
+                                              std::as_writable_bytes(std::span(state.velocities))};
+    for (auto& buffer : state.solver) buffers.emplace_back(buffer);
+    const auto sizes_match = [](const auto& a, const auto& b) { return a.size() == b.size(); };
+    if (!std::ranges::equal(buffers, checkpoint.buffers, sizes_match)) {
+        throw UserError("the checkpoint is of another scene: its state has another size");
     }
+    for (std::size_t b = 0; b < buffers.size(); ++b) {
+        std::ranges::copy(checkpoint.buffers[b], buffers[b].begin());
+    }
+    frame_ = checkpoint.frame;
+    place();
+    restore(state);
 }
 
 void Simulation::start_from(int frame, std::span<const float> positions,

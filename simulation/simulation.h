@@ -10,6 +10,7 @@
 #include "runtime/device_list.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
+#include "simulation/output/checkpoint.h"
 #include "simulation/planning/division.h"
 #include "simulation/planning/plan_kind.h"
 #include "simulation/solver/solver.h"
@@ -56,6 +57,11 @@ public:
     FrameRecord advance();
     /// The devices that failed so far.
     const std::vector<LostDevice>& losses() const { return losses_; }
+    /// The state between two frames, all of it.
+    Checkpoint checkpoint() const;
+    /// Goes on from there, with the results of a run that was never interrupted. Throws UserError
+    /// if the checkpoint's state has another size.
+    void resume(const Checkpoint& checkpoint);
     /// Keeps what was learnt about the devices for later runs, in options.cost_file.
     void save_costs() const;
 

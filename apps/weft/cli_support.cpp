@@ -189,8 +189,15 @@ void add_output_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--no-geometry", options.no_geometry, "write no geometry")->group(group);
     command.add_flag("--no-trace", options.no_trace, "write no trace")->group(group);
     auto* force = command.add_flag("--force", options.force, "overwrite a finished run");
-    auto* resume = command.add_flag("--resume", options.resume,
-                                    "continue a run that was stopped (not in this version)");
+    auto* resume =
+        command.add_flag("--resume", options.resume,
+                         "continue a run that was stopped or killed, where there is one");
+    command
+        .add_option("--checkpoint", options.checkpoint,
+                    "seconds of work that a kill may cost; default: 10")
+        ->type_name("SECONDS")
+        ->check(CLI::NonNegativeNumber)
+        ->group(group);
     force->group(group)->excludes(resume);
     resume->group(group);
 }

@@ -30,6 +30,7 @@ struct RunOptions {
     bool no_trace = false;
     bool force = false;
     bool resume = false;
+    double checkpoint = 10.0;  ///< [s] between two of them
     bool quiet = false;
     bool json = false;
 

@@ -62,17 +62,44 @@ OutputFolder::~OutputFolder() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void OutputFolder::claim() {
+void OutputFolder::claim(bool resume) {
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) refuse(path_, "the folder cannot be made: " + error.message());
     lock();
+    if (resume) {
+        set_aside(trace());
+        set_aside(geometry());
+    } else {
+        remove(checkpoint());
+        forget_before();
+    }
     for (const fs::path& old :
          {summary(), trace(), geometry(), GeometryWriter::xdmf_path(geometry())}) {
-        fs::remove(old, error);
-        if (error) refuse(path_, "'" + old.string() + "' cannot be replaced: " + error.message());
+        remove(old);
     }
 }
+
+void OutputFolder::remove(const fs::path& old) const {
+    std::error_code error;
+    fs::remove(old, error);
+    if (error) refuse(path_, "'" + old.string() + "' cannot be replaced: " + error.message());
+}
+
+/// One that is there already counts: then an earlier resumption was killed while it took it over.
+void OutputFolder::set_aside(const fs::path& file) const {
+    std::error_code error;
+    if (fs::exists(before(file)) || !fs::exists(file)) return;
+    fs::rename(file, before(file), error);
+    if (error) refuse(path_, "'" + file.string() + "' cannot be renamed: " + error.message());
+}
+
+void OutputFolder::forget_before() {
+    remove(before(trace()));
+    remove(before(geometry()));
+}
+
+fs::path OutputFolder::before(const fs::path& file) { return file.string() + ".before"; }
 
 /// The lock is on the folder itself, so that it leaves nothing behind, however the run ends.
 void OutputFolder::lock() {

@@ -6,6 +6,10 @@
 #include <iostream>
 
 #include "apps/weft/progress.h"
+#include "runtime/cache_folder.h"
+#include "runtime/clock.h"
+#include "runtime/error.h"
+#include "simulation/scene/mesh_files.h"
 
 namespace weft {
 
@@ -75,11 +79,47 @@ SceneRun::SceneRun(const RunOptions& options)
       scene_(read_scene(options.scene, options.overrides())),
       folder_(folder_for(options, scene_), options.force) {
     set_up();
-    folder_.claim();
     const RunDescription description = describe(*simulation_, options_);
+    if (options_.resume) find_earlier(description);
+    folder_.claim(earlier_.has_value());
     summary_.emplace(description);
     if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
     if (!options_.no_geometry) open_geometry();
+    if (earlier_) take_over();
+    last_checkpoint_ = now();
+}
+
+/// In one line, what the results depend on. The number of frames may differ.
+std::string SceneRun::origin() const {
+    std::string text = std::string(WEFT_VERSION) + '\n' + options_.math + '\n' + scene_.text;
+    for (const std::string& value : scene_.overrides) {
+        if (!value.starts_with("scene.frames=")) text += '\n' + value;
+    }
+    for (const BodyMesh& mesh : mesh_files(scene_)) text += '\n' + file_hash(mesh.path);
+    return cache_key(text);
+}
+
+/// Where nothing was left to go on from, the run begins at the beginning.
+void SceneRun::find_earlier(const RunDescription& description) {
+    const auto checkpoint = read_checkpoint(folder_.checkpoint(), origin());
+    if (!checkpoint) return;
+    if (checkpoint->frame > scene_.frames) {
+        throw UserError(fmt::format("--resume: {} frames are done already, and {} are asked for",
+                                    checkpoint->frame, scene_.frames));
+    }
+    earlier_.emplace(folder_, checkpoint->frame, description);
+    simulation_->resume(*checkpoint);
+}
+
+void SceneRun::take_over() {
+    if (trace_ && earlier_->has_trace()) clock_offset_ = earlier_->hand_over(*summary_, *trace_);
+    if (geometry_ && earlier_->has_geometry()) earlier_->hand_over(*geometry_);
+    if (!options_.quiet) {
+        std::cerr << fmt::format("weft: {}: going on after {} of {} frames\n", scene_.name,
+                                 earlier_->frames(), scene_.frames);
+    }
+    earlier_.reset();
+    folder_.forget_before();
 }
 
 void SceneRun::set_up() {
@@ -95,7 +135,7 @@ void SceneRun::set_up() {
 
 void SceneRun::say_what_runs() const {
     print_warnings(warnings_);
-    if (folder_.replaces_unfinished()) {
+    if (folder_.replaces_unfinished() && !options_.resume) {
         std::cerr << fmt::format("weft: {}: replacing a run that did not finish\n",
                                  folder_.path().string());
     }
@@ -122,7 +162,7 @@ void SceneRun::open_geometry() {
     const auto triangles = geometry_triangles(model);
     geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
                       geometry_bodies(model), static_cast<std::size_t>(scene_.frames) + 1);
-    append_geometry();
+    if (!earlier_ || !earlier_->has_geometry()) append_geometry();
 }
 
 void SceneRun::append_geometry() {
@@ -133,6 +173,7 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     Progress progress("frame", scene_.frames, options_.quiet);
     while (frames_done() < scene_.frames && notice.signal() == 0) {
         FrameRecord record = simulation_->advance();
+        shift_times(record, clock_offset_);
         say_losses();
         summary_->add(record);
         if (trace_) {
@@ -140,8 +181,21 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
             trace_->append(std::move(record));
         }
         if (geometry_) append_geometry();
+        keep_checkpoint();
         progress.show(frames_done());
     }
+}
+
+/// Appending waits for the frame before to be on disk. So a checkpoint is written one frame after
+/// it was taken: then trace and geometry hold all of its frames.
+void SceneRun::keep_checkpoint() {
+    if (pending_) {
+        write_checkpoint(folder_.checkpoint(), origin(), *pending_);
+        pending_.reset();
+    }
+    if (now() - last_checkpoint_ < options_.checkpoint) return;
+    pending_ = simulation_->checkpoint();
+    last_checkpoint_ = now();
 }
 
 /// Even where talk is not wanted: the rest of the run is slower than was asked for.
@@ -175,7 +229,11 @@ RunSummary SceneRun::finish() {
         summary.files.emplace_back("xdmf", GeometryWriter::xdmf_path(folder_.geometry()).string());
     }
     summary.files.emplace_back("summary", folder_.summary().string());
+    if (!summary.finished) {
+        write_checkpoint(folder_.checkpoint(), origin(), simulation_->checkpoint());
+    }
     write_summary(folder_.summary(), summary);
+    if (summary.finished) std::filesystem::remove(folder_.checkpoint());
     return summary;
 }
 

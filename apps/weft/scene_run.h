@@ -3,11 +3,9 @@
 #include <optional>
 
 #include "apps/weft/cli_support.h"
+#include "apps/weft/earlier_run.h"
 #include "apps/weft/interrupt.h"
 #include "apps/weft/output_folder.h"
-#include "runtime/trace/trace_writer.h"
-#include "simulation/output/geometry_writer.h"
-#include "simulation/output/summary.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -31,7 +29,11 @@ public:
 private:
     void set_up();
     void say_what_runs() const;
+    std::string origin() const;
+    void find_earlier(const RunDescription& description);
+    void take_over();
     void open_geometry();
+    void keep_checkpoint();
     void append_geometry();
     void say_losses();
     std::string text_of(const LostDevice& lost) const;
@@ -45,6 +47,10 @@ private:
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
     std::size_t losses_said_ = 0;
+    std::optional<EarlierRun> earlier_;  ///< that this run goes on from
+    std::optional<Checkpoint> pending_;  ///< written once its frames are on disk
+    double last_checkpoint_ = 0.0;       ///< steady-clock seconds
+    double clock_offset_ = 0.0;          ///< the time that the run before took [s]
 };
 
 }  // namespace weft

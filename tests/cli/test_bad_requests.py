@@ -103,7 +103,7 @@ COMMAND_LINES = {
     "unknown_key": (["--set", "scene.framez=3"], ["--set scene.framez=3", "did you mean"]),
     "set_without_value": (["--set", "scene.frames"], ["--set scene.frames"]),
     "wrong_strips": (["--strips", "1,1"], ["2 devices", "there are 1 devices"]),
-    "resume_of_later": (["--resume"], ["--resume", "not in this version"]),
+    "resume_and_force": (["--resume", "--force"], ["--resume", "--force"]),
 }
 
 

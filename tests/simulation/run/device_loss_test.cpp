@@ -74,6 +74,19 @@ TEST_P(DeviceLoss, ItsWorkIsRecordedUnderTheOthersNumbers) {
     for (const auto& p : frame.plan) EXPECT_EQ(static_cast<int>(p.device), 1 - lost);
 }
 
+/// A solver may carry state of its own from substep to substep.
+TEST_F(DeviceLoss, WithASolverThatHasAMemory) {
+    Scene scene = parse_scene(kEverything, "everything.toml");
+    scene.solver.method = Method::kVbd;
+    SimulationOptions options;
+    options.plan = PlanKind::kExact;
+    Warnings warnings;
+    Simulation undisturbed(scene, devices({kNever, kNever}), options, warnings);
+    Simulation disturbed(scene, devices({kNever, kCalibration + 2}), options, warnings);
+    EXPECT_EQ(hash_after(disturbed, kFrames), hash_after(undisturbed, kFrames));
+    EXPECT_EQ(disturbed.losses().size(), 1U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, DeviceLoss, testing::Values(0, 1));
 
 TEST_F(DeviceLoss, TwoOfThreeOneAfterTheOther) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+/// The state of a simulation between two frames.
+struct Checkpoint {
+    int frame = 0;                                ///< the next one
+    std::vector<std::vector<std::byte>> buffers;  ///< as Simulation::checkpoint() gives them
+};
+
+/// Writes it beside the file first, then takes the file's name: whole or not at all, and a killed
+/// run leaves the one before. origin: what the run was made from, in one line. Throws RunError.
+void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
+                      const Checkpoint& checkpoint);
+
+/// None if the file is missing. Throws UserError if it is no checkpoint, is damaged, or was made
+/// from something else.
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
+                                          const std::string& origin);
+
+}  // namespace weft

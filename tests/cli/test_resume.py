@@ -1,0 +1,126 @@
+"""A run that was stopped or killed goes on, and ends as if nothing had happened."""
+
+import json
+import signal
+
+import h5py
+import numpy
+import pytest
+from weft_program import SHEET, expect_error, start_weft, wait_for_frames, weft
+
+FRAMES = 40
+SCENE = SHEET.replace("frames = 3", f"frames = {FRAMES}").replace("substeps = 2", "substeps = 100")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return tmp_path
+
+
+def run(folder, *arguments, device="cpu/1"):
+    return weft("run", "scene.toml", "--device", device, "--quiet", *arguments, cwd=folder)
+
+
+def interrupt(folder, number, frames):
+    """A run that ends early, by a signal."""
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", cwd=folder)
+    wait_for_frames(folder / "out/sheet/trace.h5", frames, process)
+    process.send_signal(number)
+    process.communicate(timeout=30)
+
+
+def summary_of(folder, name="sheet"):
+    return json.loads((folder / "out" / name / "summary.json").read_text())
+
+
+def positions(path):
+    with h5py.File(path) as file:
+        steps = file["VTKHDF/Steps"].attrs["NSteps"]
+        vertices = file["VTKHDF/NumberOfPoints"][0]
+        return file["VTKHDF/Points"][: steps * vertices], file["VTKHDF/Steps/Values"][:steps]
+
+
+def expect_whole_run(folder):
+    """The resumed run in out/sheet against one that was never interrupted."""
+    assert run(folder, "--out", "out/whole").returncode == 0
+    whole, resumed = summary_of(folder, "whole"), summary_of(folder)
+    assert resumed["finished"] and resumed["frames"] == FRAMES
+    assert resumed["state_hash"] == whole["state_hash"]
+    for a, b in zip(positions(folder / "out/whole/frames.vtkhdf"),
+                    positions(folder / "out/sheet/frames.vtkhdf")):
+        assert numpy.array_equal(a, b)
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        frames = trace["frames"][:]
+        assert list(frames["frame"]) == list(range(FRAMES))
+        assert (numpy.diff(frames["start"]) > 0).all()
+        assert (frames["end"][:-1] <= frames["start"][1:] + 1e-3).all()
+        assert set(trace["executions"]["frame"]) == set(range(FRAMES))
+    left = {path.name for path in (folder / "out/sheet").iterdir()}
+    assert left == {"trace.h5", "frames.vtkhdf", "frames.xdmf", "summary.json"}
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=lambda n: n.name)
+def test_goes_on_where_it_ended(folder, number):
+    interrupt(folder, number, 6)
+    result = weft("run", "scene.toml", "--device", "cpu/1", "--resume", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    assert "going on after" in result.stderr
+    expect_whole_run(folder)
+
+
+def test_killed_again_and_again(folder):
+    interrupt(folder, signal.SIGKILL, 4)
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", "--resume",
+                         cwd=folder)
+    wait_for_frames(folder / "out/sheet/trace.h5", 12, process)
+    process.kill()
+    process.communicate()
+    assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
+
+
+def test_killed_while_it_takes_over(folder):
+    """As it is found then: the old files aside, new ones begun."""
+    interrupt(folder, signal.SIGKILL, 6)
+    out = folder / "out/sheet"
+    for name in ["trace.h5", "frames.vtkhdf"]:
+        (out / name).rename(out / f"{name}.before")
+        (out / name).write_bytes(b"half")
+    assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
+
+
+def test_begins_at_the_beginning_where_nothing_is(folder):
+    assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
+
+
+def test_other_devices_may_go_on_without_a_trace(folder):
+    interrupt(folder, signal.SIGINT, 6)
+    expect_error(run(folder, "--resume", device="cpu/2"), 2, "trace.h5",
+                 "--resume needs the devices")
+    (folder / "out/sheet/trace.h5").unlink()
+    assert run(folder, "--resume", "--no-trace", device="cpu/2").returncode == 0
+    assert run(folder, "--out", "out/whole").returncode == 0
+    assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]
+
+
+def test_another_scene_cannot_go_on(folder):
+    interrupt(folder, signal.SIGINT, 6)
+    expect_error(run(folder, "--resume", "--set", "scene.gravity=[0, -1, 0]"), 2, "checkpoint",
+                 "another scene", "--force")
+    (folder / "scene.toml").write_text(SCENE.replace("1.0e4", "2.0e4"))
+    expect_error(run(folder, "--resume"), 2, "checkpoint", "another scene", "--force")
+
+
+def test_finished_run_does_not_go_on(folder):
+    assert run(folder, "--frames", "2").returncode == 0
+    expect_error(run(folder, "--resume", "--frames", "2"), 2, "out/sheet", "finished run")
+
+
+def test_damaged_checkpoint(folder):
+    interrupt(folder, signal.SIGINT, 6)
+    checkpoint = folder / "out/sheet/checkpoint"
+    checkpoint.write_bytes(checkpoint.read_bytes()[:-10])
+    expect_error(run(folder, "--resume"), 2, "checkpoint", "cannot be read", "--force")
