@@ -31,10 +31,11 @@ std::optional<BadState> find_too_fast(const Model& model) {
     return std::nullopt;
 }
 
-std::optional<BadState> find_overstretched(const Model& model) {
+/// Attachments are left out: vertices that are tied to each other in one place have no length.
+std::optional<BadState> find_overstretched(const Model& model, const Springs& springs) {
     const double most = model.scene.guard.max_strain;
-    const Springs& springs = *model.springs;
     for (int s = 0; s < springs.elements.count(); ++s) {
+        if (!springs.is_edge(s)) continue;
         const auto ends = springs.elements.vertices_of(s);
         const Vec3 along = to_vec3((*model.positions)[static_cast<std::size_t>(ends[0])]) -
                            to_vec3((*model.positions)[static_cast<std::size_t>(ends[1])]);
@@ -47,10 +48,36 @@ std::optional<BadState> find_overstretched(const Model& model) {
     return std::nullopt;
 }
 
+/// Membranes or Tetrahedra.
+template <class Kind>
+std::optional<BadState> find_overstretched(const Model& model, const Kind& kind, const char* what) {
+    const double most = model.scene.guard.max_strain;
+    for (int e = 0; e < kind.elements.count(); ++e) {
+        const double stretch = kind.stretch(e, model.positions->span());
+        if (stretch <= 1.0 + most) continue;
+        return BadState{kind.elements.vertices_of(e)[0],
+                        fmt::format("{} is stretched to {:g} times its size, beyond "
+                                    "guard.max_strain = {:g}",
+                                    what, stretch, most)};
+    }
+    return std::nullopt;
+}
+
+std::optional<BadState> find_overstretched(const Model& model) {
+    std::optional<BadState> bad;
+    if (model.springs) bad = find_overstretched(model, *model.springs);
+    if (!bad && model.membranes) bad = find_overstretched(model, *model.membranes, "triangle");
+    if (!bad && model.tetrahedra) bad = find_overstretched(model, *model.tetrahedra, "tetrahedron");
+    return bad;
+}
+
 }  // namespace
 
 std::vector<std::string> energy_names(const Model& model) {
-    std::vector<std::string> names{"stretch"};
+    std::vector<std::string> names;
+    if (model.springs) names.push_back("stretch");
+    if (model.membranes) names.push_back("membrane");
+    if (model.tetrahedra) names.push_back("solid");
     if (model.hinges) names.push_back("bend");
     return names;
 }
@@ -65,8 +92,13 @@ Energies measure_energies(const Model& model, double time) {
         energies.kinetic += 0.5 * model.masses[v] * dot(u, u);
         energies.gravity -= model.masses[v] * dot(g, to_vec3(x));
     }
-    energies.elements.push_back(model.springs->energy(model.positions->span()));
-    if (model.hinges) energies.elements.push_back(model.hinges->energy(model.positions->span()));
+    const auto add = [&](const auto& kind) {
+        if (kind) energies.elements.push_back(kind->energy(model.positions->span()));
+    };
+    add(model.springs);
+    add(model.membranes);
+    add(model.tetrahedra);
+    add(model.hinges);
     return energies;
 }
 
@@ -89,7 +121,7 @@ std::string vertex_name(const Model& model, int vertex) {
     for (const BodyRange& body : model.bodies) {
         const int own = in_scene - body.first_vertex;
         if (own >= 0 && own < body.vertex_count) {
-            return fmt::format("vertex {} of cloth '{}'", own, body.name);
+            return fmt::format("vertex {} of {} '{}'", own, body.kind, body.name);
         }
     }
     return fmt::format("vertex {}", in_scene);

@@ -133,6 +133,22 @@ bool any_of(const Range& range, Test test) {
     return std::any_of(range.begin(), range.end(), test);
 }
 
+std::function<bool(const std::string&)> is_about(const std::string& word) {
+    return [word](const std::string& kernel) { return kernel.find(word) != std::string::npos; };
+}
+
+void add_elements(LeftOutList& list, const Model& model) {
+    if (!model.springs) {
+        list.add("springs", "no cloth has stretch.stiffness, and nothing is attached",
+                 is_about("springs"));
+    }
+    if (!model.membranes) list.add("membranes", "no cloth has a membrane", is_about("membranes"));
+    if (!model.tetrahedra) list.add("solids", "the scene has no [[solid]]", is_about("tetrahedra"));
+    if (model.scene.attachments.empty()) {
+        list.add("attachments", "the scene has no [[attachment]]");
+    }
+}
+
 void add_bending(LeftOutList& list, const Model& model) {
     if (model.hinges) return;
     const bool asked =
@@ -181,22 +197,24 @@ void add_obstacles(LeftOutList& list, const Model& model) {
 }
 
 void add_pins(LeftOutList& list, const Model& model) {
-    if (!any_of(model.scene.cloths, [](const Cloth& c) { return !c.pins.empty(); })) {
-        list.add("pins", "no cloth has pins");
+    const auto has_pins = [](const auto& body) { return !body.pins.empty(); };
+    if (!any_of(model.scene.cloths, has_pins) && !any_of(model.scene.solids, has_pins)) {
+        list.add("pins", "nothing has pins");
     }
     if (!model.moving_pins) list.add("moving pins", "no pins have a motion", "move_pins");
 }
 
 void add_damping(LeftOutList& list, const Model& model) {
     if (model.damped) {
-        list.add("velocities without damping", "a cloth has damping", "update_velocities");
+        list.add("velocities without damping", "something has damping", "update_velocities");
     } else {
-        list.add("damping", "no cloth has damping above 0", "update_damped_velocities");
+        list.add("damping", "nothing has damping above 0", "update_damped_velocities");
     }
 }
 
 std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelSet& used) {
     LeftOutList list(used);
+    add_elements(list, model);
     add_bending(list, model);
     add_obstacles(list, model);
     add_pins(list, model);

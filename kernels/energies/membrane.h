@@ -72,8 +72,14 @@ WEFT_INLINE real3 membrane_map(membrane m, real2 b) {
     return add_scaled(scale(m.u, b.u), m.v, b.v);
 }
 
-/// [J]; without the cancellation of linear terms, see tetrahedron_energy().
-WEFT_INLINE real membrane_energy(membrane m) {
+/// What the energy is made of: E = mu/2 shape + lambda/2 growth^2.
+typedef struct {
+    real shape;   ///< |F|^2 - 2 J, the square of the principal stretches' difference
+    real growth;  ///< J - 1
+} membrane_strain;
+
+/// Without the cancellation of linear terms, see strain_of_tetrahedron().
+WEFT_INLINE membrane_strain strain_of_membrane(membrane m) {
     const real one = splat(1.0f);
     const real one_half = splat(0.5f);
     const real uu = one_half * (dot3(m.u, m.u) - one);
@@ -82,9 +88,16 @@ WEFT_INLINE real membrane_energy(membrane m) {
     const real trace = uu + vv;
     const real det = uu * vv - uv * uv;
     const real inverse = one / (m.jacobian + one);
-    const real growth = (splat(2.0f) * trace + splat(4.0f) * det) * inverse;
-    const real shape = (splat(2.0f) * trace * growth - splat(8.0f) * det) * inverse;
-    return one_half * (m.mu * shape + m.lambda * growth * growth);
+    membrane_strain strain;
+    strain.growth = (splat(2.0f) * trace + splat(4.0f) * det) * inverse;
+    strain.shape = (splat(2.0f) * trace * strain.growth - splat(8.0f) * det) * inverse;
+    return strain;
+}
+
+/// [J]
+WEFT_INLINE real membrane_energy(membrane m) {
+    const membrane_strain strain = strain_of_membrane(m);
+    return splat(0.5f) * (m.mu * strain.shape + m.lambda * strain.growth * strain.growth);
 }
 
 /// dE/dx_j [N] of the corner with shape gradient b

@@ -54,36 +54,46 @@ WEFT_INLINE tetrahedron make_tetrahedron(mat3 map, real mu, real lambda) {
     return t;
 }
 
-/// [J]. With e = (F^T F - I) / 2, t = tr e, m the sum of its principal minors and d = det e:
+/// What the energy is made of: E = mu/2 shape + lambda/2 growth^2.
+typedef struct {
+    real shape;   ///< |F|^2 - 3 - 2 (J - 1)
+    real growth;  ///< J - 1
+} tetrahedron_strain;
+
+/// With e = (F^T F - I) / 2, t = tr e, m the sum of its principal minors and d = det e:
 ///   |F|^2 - 3 = 2 t     J^2 - 1 = 2 t + 4 m + 8 d
-/// so |F|^2 - 3 - 2 (J - 1) = (2 t (J - 1) - 8 m - 16 d) / (J + 1), in which the terms that are
-/// linear in the strain have cancelled, and not by rounding. It serves where J > 0.
-WEFT_INLINE real tetrahedron_energy(tetrahedron t) {
+/// so shape = (2 t (J - 1) - 8 m - 16 d) / (J + 1), in which the terms that are linear in the
+/// strain have cancelled, and not by rounding. It serves where J > 0.
+WEFT_INLINE tetrahedron_strain strain_of_tetrahedron(mat3 map, real jacobian) {
+    const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const real one_half = splat(0.5f);
-    const real xx = one_half * (dot3(t.map.x, t.map.x) - one);
-    const real yy = one_half * (dot3(t.map.y, t.map.y) - one);
-    const real zz = one_half * (dot3(t.map.z, t.map.z) - one);
-    const real xy = one_half * dot3(t.map.x, t.map.y);
-    const real xz = one_half * dot3(t.map.x, t.map.z);
-    const real yz = one_half * dot3(t.map.y, t.map.z);
+    const real xx = one_half * (dot3(map.x, map.x) - one);
+    const real yy = one_half * (dot3(map.y, map.y) - one);
+    const real zz = one_half * (dot3(map.z, map.z) - one);
+    const real xy = one_half * dot3(map.x, map.y);
+    const real xz = one_half * dot3(map.x, map.z);
+    const real yz = one_half * dot3(map.y, map.z);
     const real trace = xx + yy + zz;
     const real minor_x = yy * zz - yz * yz;
     const real minors = minor_x + (xx * zz - xz * xz) + (xx * yy - xy * xy);
     const real det = xx * minor_x - xy * (xy * zz - xz * yz) + xz * (xy * yz - yy * xz);
 
-    const real zero = splat(0.0f);
-    const real denominator = one + larger(t.jacobian, zero);
-    const real growth =
-        t.jacobian > zero
-            ? (splat(2.0f) * trace + splat(4.0f) * minors + splat(8.0f) * det) / denominator
-            : t.jacobian - one;
-    const real shape =
-        t.jacobian > zero
-            ? (splat(2.0f) * trace * growth - splat(8.0f) * minors - splat(16.0f) * det) /
-                  denominator
-            : splat(2.0f) * (trace - growth);
-    return one_half * (t.mu * shape + t.lambda * growth * growth);
+    const real inverse = one / (one + larger(jacobian, zero));
+    const real small_growth =
+        (splat(2.0f) * trace + splat(4.0f) * minors + splat(8.0f) * det) * inverse;
+    const real small_shape =
+        (splat(2.0f) * trace * small_growth - splat(8.0f) * minors - splat(16.0f) * det) * inverse;
+    tetrahedron_strain strain;
+    strain.growth = jacobian > zero ? small_growth : jacobian - one;
+    strain.shape = jacobian > zero ? small_shape : splat(2.0f) * (trace - strain.growth);
+    return strain;
+}
+
+/// [J]
+WEFT_INLINE real tetrahedron_energy(tetrahedron t) {
+    const tetrahedron_strain strain = strain_of_tetrahedron(t.map, t.jacobian);
+    return splat(0.5f) * (t.mu * strain.shape + t.lambda * strain.growth * strain.growth);
 }
 
 /// dE/dx_j [N] of the corner with shape gradient b

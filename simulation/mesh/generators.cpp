@@ -31,6 +31,24 @@ void add_cell(TriangleMesh& mesh, int a, int b, int c, int d, bool flip) {
     }
 }
 
+/// From the cell's lowest corner to its highest, along one axis after the other: each order of the
+/// three axes is a tetrahedron. offset: from a vertex to its neighbour on each axis.
+void add_cell(TetMesh& mesh, int lowest, const std::array<int, 3>& offset) {
+    constexpr std::array<std::array<std::size_t, 2>, 6> kFirstTwoAxes{
+        {{0, 1}, {1, 2}, {2, 0}, {1, 0}, {2, 1}, {0, 2}}};
+    const int highest = lowest + offset[0] + offset[1] + offset[2];
+    for (std::size_t i = 0; i < kFirstTwoAxes.size(); ++i) {
+        const auto [first, second] = kFirstTwoAxes[i];
+        const int one = lowest + offset[first];
+        const int two = one + offset[second];
+        const bool is_even = i < 3;  // as a permutation of the axes
+        if (is_even)
+            mesh.tetrahedra.push_back({lowest, one, two, highest});
+        else
+            mesh.tetrahedra.push_back({lowest, two, one, highest});
+    }
+}
+
 }  // namespace
 
 TriangleMesh make_grid(std::array<double, 2> size, std::array<int, 2> resolution) {
@@ -74,6 +92,28 @@ TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
         }
     }
     finish(mesh, "cylinder");
+    return mesh;
+}
+
+TetMesh make_block(std::array<double, 3> size, std::array<int, 3> resolution) {
+    TetMesh mesh;
+    mesh.source = "block";
+    const auto [nx, ny, nz] = resolution;
+    const auto at = [&](std::size_t axis, int index) {
+        return size[axis] * (fraction(index, resolution[axis] - 1) - 0.5);
+    };
+    for (int k = 0; k < nz; ++k) {
+        for (int j = 0; j < ny; ++j) {
+            for (int i = 0; i < nx; ++i) mesh.positions.push_back({at(0, i), at(1, j), at(2, k)});
+        }
+    }
+    for (int k = 0; k + 1 < nz; ++k) {
+        for (int j = 0; j + 1 < ny; ++j) {
+            for (int i = 0; i + 1 < nx; ++i) {
+                add_cell(mesh, (k * ny + j) * nx + i, {1, nx, nx * ny});
+            }
+        }
+    }
     return mesh;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "simulation/mesh/tet_mesh.h"
 #include "simulation/mesh/triangle_mesh.h"
 
 namespace weft {
@@ -18,5 +19,12 @@ TriangleMesh make_grid(std::array<double, 2> size, std::array<int, 2> resolution
 /// from +x to +z. Cells are cut as in make_grid().
 TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
                            std::array<int, 2> resolution);
+
+/// A block of tetrahedra, centred at the origin.
+/// size [m] along x, y, z; resolution = vertices along x, y, z, >= 2.
+/// Vertex (i, j, k) has index (k * resolution[1] + j) * resolution[0] + i. Every cell is cut alike
+/// into 6 tetrahedra around its diagonal from (i, j, k) to (i + 1, j + 1, k + 1) (Freudenthal,
+/// Kuhn), so that neighbours fit together whatever the resolution.
+TetMesh make_block(std::array<double, 3> size, std::array<int, 3> resolution);
 
 }  // namespace weft

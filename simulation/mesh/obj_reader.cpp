@@ -6,41 +6,20 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "runtime/error.h"
+#include "simulation/mesh/mesh_text.h"
 #include "simulation/mesh/parse_number.h"
 
 namespace weft {
 namespace {
 
-// Rest positions beyond this have steps of more than a tenth of a metre in single precision.
-constexpr double kMaxCoordinate = 1e6;
 // Triangles refer to vertices by int32, and edges and corners must still be counted by one.
 constexpr std::size_t kMaxElements = 100'000'000;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
-/// Takes the next word off the front of `rest`; empty at the end.
-std::string_view next_word(std::string_view& rest) {
-    std::size_t begin = 0;
-    while (begin < rest.size() && is_space(rest[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < rest.size() && !is_space(rest[end])) ++end;
-    const std::string_view word = rest.substr(begin, end - begin);
-    rest.remove_prefix(end);
-    return word;
-}
-
-/// For messages: printable and short.
-std::string quoted(std::string_view word) {
-    std::string text;
-    for (const char c : word.substr(0, 32)) text += c >= ' ' && c <= '~' ? c : '?';
-    return fmt::format("'{}{}'", text, word.size() > 32 ? "..." : "");
-}
 
 class ObjParser {
 public:
@@ -198,22 +177,6 @@ private:
     std::size_t highest_index_line_ = 0;
 };
 
-std::string read_text(const std::string& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw UserError(path + ": no such mesh file");
-    if (std::filesystem::is_directory(status)) {
-        throw UserError(path + ": is a folder, expected an OBJ file");
-    }
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) throw UserError(path + ": cannot be read");
-    std::string text(static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0)), '\0');
-    file.seekg(0);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!file) throw UserError(path + ": cannot be read");
-    return text;
-}
-
 }  // namespace
 
 TriangleMesh parse_obj(std::string_view text, const std::string& path, Warnings& warnings) {
@@ -221,9 +184,7 @@ TriangleMesh parse_obj(std::string_view text, const std::string& path, Warnings&
 }
 
 TriangleMesh read_obj(const std::string& path, Warnings& warnings) {
-    const std::string text = read_text(path);
-    if (text.empty()) throw UserError(path + ": is empty, expected an OBJ mesh");
-    return parse_obj(text, path, warnings);
+    return parse_obj(read_mesh_text(path, "an OBJ mesh"), path, warnings);
 }
 
 }  // namespace weft

@@ -2,69 +2,11 @@
 
 #include <algorithm>
 
-#include "runtime/error.h"
 #include "simulation/model/convert.h"
-#include "simulation/scene/cloth_mesh.h"
-#include "simulation/topology/adjacency.h"
 
 namespace weft {
 
 namespace {
-
-/// Everything about the scene's cloths in scene order, gathered before strips are known.
-struct Gathered {
-    std::vector<Vec3> rest;
-    std::vector<double> masses;
-    std::vector<char> held;
-    std::vector<double> damping;
-    Stencils edges{2, {}};
-    std::vector<double> edge_stiffness;
-    Stencils hinges{4, {}};
-    std::vector<double> hinge_stiffness;
-    std::vector<MovingPins::Group> moving;  ///< vertices in scene order
-};
-
-void append(Stencils& all, const Stencils& some, int first_vertex) {
-    for (const int vertex : some.vertices) all.vertices.push_back(vertex + first_vertex);
-}
-
-/// A third of each triangle's mass to each of its corners.
-void add_masses(Gathered& all, const TriangleMesh& mesh, double density, std::size_t first) {
-    for (const auto& t : mesh.triangles) {
-        const auto corner = [&](int k) {
-            return mesh.positions[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-        };
-        const double area = 0.5 * length(cross(corner(1) - corner(0), corner(2) - corner(0)));
-        for (const int vertex : t)
-            all.masses[first + static_cast<std::size_t>(vertex)] += density * area / 3.0;
-    }
-}
-
-void add_elements(Gathered& all, const Cloth& cloth, const TriangleMesh& mesh, int first) {
-    std::vector<int> corners;
-    for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
-    const Adjacency adjacency = find_adjacency(mesh.vertex_count(), corners);
-    append(all.edges, adjacency.edges, first);
-    all.edge_stiffness.resize(static_cast<std::size_t>(all.edges.count()), cloth.stretch.stiffness);
-    if (!cloth.bend) return;
-    append(all.hinges, adjacency.hinges, first);
-    all.hinge_stiffness.resize(static_cast<std::size_t>(all.hinges.count()), cloth.bend->stiffness);
-}
-
-void add_pins(Gathered& all, const Cloth& cloth, const TriangleMesh& mesh, int first) {
-    for (const PinGroup& pins : cloth.pins) {
-        MovingPins::Group group;
-        for (const int vertex : pinned_vertices(cloth, pins, mesh)) {
-            const auto v = static_cast<std::size_t>(first + vertex);
-            all.held[v] = 1;
-            group.vertices.push_back(first + vertex);
-            group.rest.push_back(all.rest[v]);
-        }
-        if (!pins.motion) continue;
-        group.motion = *pins.motion;
-        all.moving.push_back(std::move(group));
-    }
-}
 
 /// Pins in the new order of vertices, ascending.
 std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> groups,
@@ -87,37 +29,36 @@ std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> group
 }  // namespace
 
 Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt / given.substeps) {
-    Gathered all;
-    for (const Cloth& cloth : scene.cloths) {
-        const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
-        const std::size_t first = all.rest.size();
-        const int first_vertex = static_cast<int>(first);
-        for (const auto& t : mesh.triangles) {
-            triangles.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
-            triangle_body.push_back(static_cast<int>(bodies.size()));
-        }
-        bodies.push_back({cloth.name, first_vertex, mesh.vertex_count()});
-        all.rest.insert(all.rest.end(), mesh.positions.begin(), mesh.positions.end());
-        all.masses.resize(all.rest.size(), 0.0);
-        all.held.resize(all.rest.size(), 0);
-        all.damping.resize(all.rest.size(), cloth.damping.value_or(0.0));
-        damped = damped || cloth.damping.has_value();
-        add_masses(all, mesh, cloth.density, first);
-        add_elements(all, cloth, mesh, first_vertex);
-        add_pins(all, cloth, mesh, first_vertex);
-    }
-    const std::size_t count = all.rest.size();
-    const bool bends = all.hinges.count() > 0;
+    Gathered all = gather(scene, warnings);
+    bodies = std::move(all.bodies);
+    triangles = std::move(all.triangles);
+    triangle_body = std::move(all.triangle_body);
+    damped = all.is_damped;
 
-    std::vector<Stencils> kinds{all.edges};
-    if (bends) kinds.push_back(all.hinges);
     StripOptions options;
     options.extra_levels = is_vertex_wise(scene.solver.method) ? 1 : 0;
-    strips = make_strips(static_cast<int>(count), kinds, options);
+    std::vector<Stencils> kinds;
+    for (const Stencils* kind : {&all.springs, &all.membranes, &all.hinges, &all.tetrahedra}) {
+        if (kind->count() > 0) kinds.push_back(*kind);
+    }
+    strips = make_strips(static_cast<int>(all.rest.size()), kinds, options);
     strip_begin_ = std::make_unique<Buffer<int>>("strips", strips.begin.size());
     std::copy(strips.begin.begin(), strips.begin.end(), strip_begin_->data());
     vertices_ = {strip_begin_.get(), 0, 1, strips.count()};
 
+    make_vertices(all);
+    make_elements(all);
+    if (!all.moving.empty()) {
+        moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
+                                                   strips, scene.substeps);
+    }
+    if (!scene.obstacles.empty()) {
+        obstacles = std::make_unique<Obstacles>(scene.obstacles, scene.substeps);
+    }
+}
+
+void Model::make_vertices(const Gathered& all) {
+    const std::size_t count = all.rest.size();
     positions = std::make_unique<Buffer<float4>>("positions", count);
     previous = std::make_unique<Buffer<float4>>("previous", count);
     velocities = std::make_unique<Buffer<float4>>("velocities", count);
@@ -130,15 +71,23 @@ Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt 
         (*positions)[v] = to_float4(all.rest[old], free ? 1.0 / all.masses[old] : 0.0);
         (*velocities)[v] = to_float4({}, 1.0 / (1.0 + h * all.damping[old]));
     }
+}
 
-    springs = std::make_unique<Springs>(all.edges, strips, all.rest, all.edge_stiffness);
-    if (bends) hinges = std::make_unique<Hinges>(all.hinges, strips, all.rest, all.hinge_stiffness);
-    if (!all.moving.empty()) {
-        moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
-                                                   strips, scene.substeps);
+void Model::make_elements(const Gathered& all) {
+    if (all.springs.count() > 0) {
+        springs = std::make_unique<Springs>(all.springs, strips, all.rest, all.spring_stiffness,
+                                            all.edge_count);
     }
-    if (!scene.obstacles.empty()) {
-        obstacles = std::make_unique<Obstacles>(scene.obstacles, scene.substeps);
+    if (all.membranes.count() > 0) {
+        membranes =
+            std::make_unique<Membranes>(all.membranes, strips, all.rest, all.membrane_stiffness);
+    }
+    if (all.hinges.count() > 0) {
+        hinges = std::make_unique<Hinges>(all.hinges, strips, all.rest, all.hinge_stiffness);
+    }
+    if (all.tetrahedra.count() > 0) {
+        tetrahedra = std::make_unique<Tetrahedra>(all.tetrahedra, strips, all.rest,
+                                                  all.tetrahedron_stiffness);
     }
 }
 

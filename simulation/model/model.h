@@ -5,27 +5,23 @@
 #include <vector>
 
 #include "simulation/mesh/triangle_mesh.h"
+#include "simulation/model/gathered.h"
 #include "simulation/model/hinges.h"
+#include "simulation/model/membranes.h"
 #include "simulation/model/moving_pins.h"
 #include "simulation/model/obstacles.h"
 #include "simulation/model/springs.h"
+#include "simulation/model/tetrahedra.h"
 #include "simulation/scene/scene.h"
 
 namespace weft {
 
-/// A range of the scene's vertices that belongs to one cloth.
-struct BodyRange {
-    std::string name;
-    int first_vertex = 0;
-    int vertex_count = 0;
-};
-
 /// A scene as buffers, in the order that strips and colours give it. Whatever the scene does not
-/// name is not there. "Scene order" is the order of the meshes' vertices, cloth by cloth; "new
-/// order" is that of the buffers.
+/// name is not there. "Scene order" is the order of the meshes' vertices, cloth by cloth, then
+/// solid by solid; "new order" is that of the buffers.
 class Model {
 public:
-    /// Throws UserError for what is wrong with the scene's meshes and pins.
+    /// Throws UserError for what is wrong with the scene's meshes, pins and attachments.
     Model(const Scene& scene, Warnings& warnings);
 
     int vertex_count() const { return static_cast<int>(strips.order.size()); }
@@ -42,8 +38,8 @@ public:
 
     // As the scene has it (scene order).
     std::vector<BodyRange> bodies;
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<int> triangle_body;  ///< [triangles]
+    std::vector<std::array<int, 3>> triangles;  ///< of cloths all, of solids their surface
+    std::vector<int> triangle_body;             ///< [triangles]
 
     // On the devices (new order).
     Strips strips;
@@ -54,12 +50,17 @@ public:
     std::vector<double> masses;                  ///< [kg]; of held vertices, too
     bool damped = false;
 
-    std::unique_ptr<Springs> springs;
+    std::unique_ptr<Springs> springs;         ///< edges and attachments; null: neither
+    std::unique_ptr<Membranes> membranes;     ///< null: no cloth has one
     std::unique_ptr<Hinges> hinges;           ///< null: no bending
+    std::unique_ptr<Tetrahedra> tetrahedra;   ///< null: no solids
     std::unique_ptr<MovingPins> moving_pins;  ///< null: no pin moves
     std::unique_ptr<Obstacles> obstacles;     ///< null: none
 
 private:
+    void make_vertices(const Gathered& all);
+    void make_elements(const Gathered& all);
+
     std::unique_ptr<Buffer<int>> strip_begin_;
     Segments vertices_;
 };

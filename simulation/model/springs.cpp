@@ -4,14 +4,15 @@
 
 namespace weft {
 
-Springs::Springs(const Stencils& edges, const Strips& strips, std::span<const Vec3> rest,
-                 std::span<const double> stiffness)
-    : elements("springs", edges, strips),
-      material("springs.material", 2 * static_cast<std::size_t>(elements.count())) {
+Springs::Springs(const Stencils& springs, const Strips& strips, std::span<const Vec3> rest,
+                 std::span<const double> stiffness, int edges)
+    : elements("springs", springs, strips),
+      material("springs.material", 2 * static_cast<std::size_t>(elements.count())),
+      edge_count(edges) {
     const auto count = static_cast<std::size_t>(elements.count());
     for (std::size_t s = 0; s < count; ++s) {
         const int original = elements.original(static_cast<int>(s));
-        const auto ends = edges[original];
+        const auto ends = springs[original];
         const Vec3 along =
             rest[static_cast<std::size_t>(ends[0])] - rest[static_cast<std::size_t>(ends[1])];
         material[s] = static_cast<float>(length(along));

@@ -20,7 +20,7 @@ constexpr const char* kHead = R"(<?xml version="1.0" ?>
 
 constexpr const char* kTail = "</Grid>\n</Domain>\n</Xdmf>\n";
 
-constexpr const char* kGrid = R"(<Grid Name="cloth">
+constexpr const char* kGrid = R"(<Grid Name="bodies">
 <Time Value="{time}" />
 <Topology TopologyType="Triangle" NumberOfElements="{triangles}">
 <DataItem Dimensions="{triangles} 3" NumberType="Int" Precision="8" Format="HDF">{file}:/VTKHDF/Polygons/Connectivity</DataItem>

@@ -32,6 +32,8 @@ public:
 };
 
 std::unique_ptr<ElementEnergies> make_spring_energies(const Springs& springs);
+std::unique_ptr<ElementEnergies> make_membrane_energies(const Membranes& membranes);
+std::unique_ptr<ElementEnergies> make_tetrahedron_energies(const Tetrahedra& tetrahedra);
 std::unique_ptr<ElementEnergies> make_hinge_energies(const Hinges& hinges);
 
 /// All that the model has. The model must outlive them.

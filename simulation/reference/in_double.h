@@ -18,4 +18,8 @@ inline Mat3 to_mat3(kernels::sym3 a) {
     return {{Vec3{a.xx, a.xy, a.xz}, Vec3{a.xy, a.yy, a.yz}, Vec3{a.xz, a.yz, a.zz}}};
 }
 
+inline Mat3 to_mat3(kernels::mat3 a) {
+    return transposed({{to_vec3(a.x), to_vec3(a.y), to_vec3(a.z)}});
+}
+
 }  // namespace weft

@@ -21,7 +21,9 @@ void add_range(Json& schema, const Key& key) {
     if (key.range.low > widest.low) {
         schema[key.range.low_excluded ? "exclusiveMinimum" : "minimum"] = bound(key.range.low);
     }
-    if (key.range.high < widest.high) schema["maximum"] = bound(key.range.high);
+    if (key.range.high < widest.high) {
+        schema[key.range.high_excluded ? "exclusiveMaximum" : "maximum"] = bound(key.range.high);
+    }
 }
 
 Json scalar_schema(const Key& key) {

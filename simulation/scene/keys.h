@@ -15,6 +15,7 @@ struct Range {
     double low = -1e20;
     double high = 1e20;
     bool low_excluded = false;
+    bool high_excluded = false;
 };
 
 constexpr Range at_least(double low) { return {.low = low}; }

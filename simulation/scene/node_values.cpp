@@ -39,6 +39,11 @@ double number_value(const Node& table, std::string_view key) {
     return number_of(member(table, key));
 }
 
+std::optional<double> optional_number(const Node& table, std::string_view key) {
+    if (!table.find(key) || number_value(table, key) == 0.0) return std::nullopt;
+    return number_value(table, key);
+}
+
 int integer_value(const Node& table, std::string_view key) {
     return integer_of(member(table, key));
 }

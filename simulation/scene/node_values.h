@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 namespace weft {
 
 double number_value(const Node& table, std::string_view key);
+/// A number that does nothing at 0 counts as not named.
+std::optional<double> optional_number(const Node& table, std::string_view key);
 int integer_value(const Node& table, std::string_view key);
 std::string text_value(const Node& table, std::string_view key);
 std::vector<double> numbers_of(const Node& list);

@@ -12,23 +12,17 @@
 namespace weft {
 namespace {
 
-/// The resolution of a generated cloth, or null.
-template <class AnyCloth>
-auto resolution_of(AnyCloth& cloth) -> decltype(&std::get<GridShape>(cloth.shape).resolution) {
-    if (auto* grid = std::get_if<GridShape>(&cloth.shape)) return &grid->resolution;
-    if (auto* cylinder = std::get_if<CylinderShape>(&cloth.shape)) return &cylinder->resolution;
-    return nullptr;
-}
-
-std::int64_t vertices_of(const Cloth& cloth) {
-    const auto* resolution = resolution_of(cloth);
-    return resolution ? std::int64_t{(*resolution)[0]} * (*resolution)[1] : 0;
-}
-
-std::int64_t vertices_of(const std::vector<Cloth>& cloths) {
-    std::int64_t sum = 0;
-    for (const Cloth& cloth : cloths) sum += vertices_of(cloth);
-    return sum;
+/// The resolutions of a generated shape; none of a file.
+std::vector<int*> resolutions_of(Shape& shape) {
+    const auto pointers = [](auto& resolution) {
+        std::vector<int*> list;
+        for (int& count : resolution) list.push_back(&count);
+        return list;
+    };
+    if (auto* grid = std::get_if<GridShape>(&shape)) return pointers(grid->resolution);
+    if (auto* cylinder = std::get_if<CylinderShape>(&shape)) return pointers(cylinder->resolution);
+    if (auto* block = std::get_if<BlockShape>(&shape)) return pointers(block->resolution);
+    return {};
 }
 
 int scaled(int resolution, double factor) {
@@ -36,25 +30,50 @@ int scaled(int resolution, double factor) {
     return std::max(3, static_cast<int>(std::lround(resolution * factor)));
 }
 
+/// Vertices of a generated shape if its resolutions were scaled.
+double vertices_of(Shape shape, double factor) {
+    const std::vector<int*> resolutions = resolutions_of(shape);
+    double product = resolutions.empty() ? 0.0 : 1.0;
+    for (const int* count : resolutions) product *= factor == 1.0 ? *count : scaled(*count, factor);
+    return product;
+}
+
+double vertices_of(const Scene& scene, double factor) {
+    double sum = 0.0;
+    for (const Cloth& cloth : scene.cloths) sum += vertices_of(cloth.shape, factor);
+    for (const Solid& solid : scene.solids) sum += vertices_of(solid.shape, factor);
+    return sum;
+}
+
+void scale(Shape& shape, double factor) {
+    for (int* count : resolutions_of(shape)) *count = scaled(*count, factor);
+}
+
 }  // namespace
 
-void scale_resolutions(std::vector<Cloth>& cloths, int vertices) {
-    const std::int64_t now = vertices_of(cloths);
-    if (now == 0) return;
-    const double factor = std::sqrt(static_cast<double>(vertices) / static_cast<double>(now));
-    for (Cloth& cloth : cloths) {
-        if (auto* resolution = resolution_of(cloth)) {
-            for (int& count : *resolution) count = scaled(count, factor);
-        }
+void scale_resolutions(Scene& scene, int vertices) {
+    if (vertices_of(scene, 1.0) == 0.0) return;
+    // Cloths grow with the factor's square and solids with its cube: so by halving intervals.
+    double low = 0.0;
+    double high = 1.0;
+    while (vertices_of(scene, high) < vertices) high *= 2.0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (vertices_of(scene, middle) < vertices ? low : high) = middle;
     }
+    const bool low_is_nearer =
+        vertices - vertices_of(scene, low) < vertices_of(scene, high) - vertices;
+    const double factor = low_is_nearer ? low : high;
+    for (Cloth& cloth : scene.cloths) scale(cloth.shape, factor);
+    for (Solid& solid : scene.solids) scale(solid.shape, factor);
 }
 
 void check_vertex_count(const Scene& scene) {
-    const std::int64_t vertices = vertices_of(scene.cloths);
-    if (vertices <= kMaxVertices) return;
+    const double vertices = vertices_of(scene, 1.0);
+    if (vertices <= static_cast<double>(kMaxVertices)) return;
     throw UserError(
-        fmt::format("{}: the grids and cylinders have {} vertices, more than the {} "
-                    "that indices can count; lower a cloth's resolution or scene.size",
+        fmt::format("{}: the grids and cylinders have {:.0f} vertices, more than the {} "
+                    "that indices can count; lower a resolution or scene.size",
                     scene.path, vertices, kMaxVertices));
 }
 

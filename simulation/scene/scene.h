@@ -39,7 +39,15 @@ struct CylinderShape {
     std::array<int, 2> resolution{};  ///< vertices around (>= 3) and from top to bottom (>= 2)
 };
 
-/// A Wavefront OBJ file.
+/// A block of tetrahedra, its centre at the origin. Vertex (i, j, k) has index
+/// (k * resolution[1] + j) * resolution[0] + i. Corner names: "x-y-z-", "x+y-z-" ... "x+y+z+";
+/// face names: "x-", "x+" ... "z+".
+struct BlockShape {
+    std::array<double, 3> size{};     ///< [m] along x, y and z
+    std::array<int, 3> resolution{};  ///< vertices along x, y and z, >= 2
+};
+
+/// Of cloth a Wavefront OBJ file, of a solid a Gmsh (.msh) or VTK (.vtk) file.
 struct MeshFile {
     std::string path;  ///< already joined to the scene's folder
 };
@@ -56,9 +64,24 @@ struct Transform {
     Vec3 translate;
 };
 
+/// A grid or cylinder of cloth, a block of a solid, or a file of either.
+using Shape = std::variant<GridShape, CylinderShape, BlockShape, MeshFile>;
+
 /// Springs along the edges of the triangles.
 struct Stretch {
-    double stiffness = 0.0;  ///< per edge [N/m], > 0
+    double stiffness = 0.0;  ///< per edge [N/m]; 0: no springs, then there is a membrane
+};
+
+/// What an elastic material is made of.
+struct Material {
+    double young = 0.0;    ///< [Pa], > 0
+    double poisson = 0.0;  ///< in (-1, 0.5)
+};
+
+/// The triangles as a thin sheet of material that resists stretch and shear in its plane.
+struct Membrane {
+    Material material;
+    double thickness = 0.0;  ///< [m], > 0
 };
 
 /// Quadratic bending over every edge between two triangles.
@@ -72,31 +95,60 @@ struct Box3 {
     Vec3 high;
 };
 
-/// Vertices held in place, or carried along one motion. A vertex is in the group if any of the
-/// selections names it. See pinned_vertices() in cloth_mesh.h.
-struct PinGroup {
-    std::vector<std::string> corners;  ///< of a grid
+/// Some of a body's vertices: those that any of these names. See selected_vertices() in
+/// selection.h.
+struct Selection {
+    std::vector<std::string> corners;  ///< of a grid or block
     std::vector<std::string> rims;     ///< of a cylinder: "top", "bottom"
+    std::vector<std::string> faces;    ///< of a block
     std::vector<int> vertices;
     std::vector<Box3> boxes;
+    std::string where;  ///< "file:line:column", for messages
+};
+
+/// Vertices held in place, or carried along one motion.
+struct PinGroup : Selection {
     std::optional<Motion> motion;  ///< absent: held still
-    std::string where;             ///< "file:line:column", for messages
 };
 
 /// [[cloth]]
 struct Cloth {
-    std::string name;  ///< unique in its scene
-    std::variant<GridShape, CylinderShape, MeshFile> shape;
+    std::string name;  ///< unique among the scene's cloths and solids
+    Shape shape;
     Transform transform;
     double density = 0.0;  ///< [kg/m^2], > 0
     Stretch stretch;
+    std::optional<Membrane> membrane;
     std::optional<Bend> bend;
     std::optional<double> damping;  ///< of velocities [1/s], > 0
     std::vector<PinGroup> pins;
     std::string where;  ///< "file:line:column", for messages
 };
 
-/// [[obstacle]]: a rigid body that moves as it is told and pushes cloth out.
+/// [[solid]]: tetrahedra of stable Neo-Hookean material.
+struct Solid {
+    std::string name;  ///< unique among the scene's cloths and solids
+    Shape shape;
+    Transform transform;
+    double density = 0.0;  ///< [kg/m^3], > 0
+    Material material;
+    std::optional<double> damping;  ///< of velocities [1/s], > 0
+    std::vector<PinGroup> pins;
+    std::string where;  ///< "file:line:column", for messages
+};
+
+/// [[attachment]]: a spring from each selected vertex of one body to the nearest vertex of another.
+/// Its rest length is the distance at time 0, so vertices in one place are tied together.
+struct Attachment {
+    std::string a;  ///< the body whose vertices are selected
+    std::string b;  ///< the body that they are tied to
+    Selection selected;
+    double stiffness = 0.0;       ///< of each spring [N/m], > 0
+    std::optional<double> reach;  ///< [m] vertices with nothing of b nearer than this stay free
+    std::string where;            ///< "file:line:column", for messages
+};
+
+/// [[obstacle]]: a rigid body that moves as it is told and pushes cloth and solids out.
 ///
 /// Every shape lives in its own local frame, so that a kernel for it is one signed distance:
 ///   sphere   dimensions = {radius}, around the origin
@@ -120,7 +172,9 @@ struct Obstacle {
 /// [guard]: beyond either bound a state counts as exploded, and the run stops.
 struct Guard {
     double max_speed = 1000.0;  ///< [m/s] of any vertex
-    double max_strain = 100.0;  ///< of any edge: |length / rest length - 1|
+    /// Of any spring, |length / rest length - 1|; of triangles and tetrahedra, the mean stretch
+    /// - 1.
+    double max_strain = 100.0;
 };
 
 /// Gravity at one time; linear between keys, held before the first and after the last.
@@ -141,6 +195,8 @@ struct Scene {
     SolverSettings solver;
     Guard guard;
     std::vector<Cloth> cloths;
+    std::vector<Solid> solids;
+    std::vector<Attachment> attachments;
     std::vector<Obstacle> obstacles;
 
     // Where it came from, for traces and replays.

@@ -67,7 +67,10 @@ void check_range(const Node& node, const Key& key, const std::string& path, doub
         const char* word = range.low_excluded ? "greater than" : "at least";
         fail(node, path, fmt::format("must be {} {}{}", word, range.low, unit));
     }
-    if (value > range.high) fail(node, path, fmt::format("must be at most {}{}", range.high, unit));
+    if (range.high_excluded ? value >= range.high : value > range.high) {
+        const char* word = range.high_excluded ? "less than" : "at most";
+        fail(node, path, fmt::format("must be {} {}{}", word, range.high, unit));
+    }
     if (value != 0.0 && std::abs(value) < kSmallest) {
         fail(node, path, fmt::format("too small for single precision (below {})", kSmallest));
     }

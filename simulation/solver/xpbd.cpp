@@ -4,7 +4,9 @@
 
 #include "kernels/motion.h"
 #include "kernels/xpbd/hinges.h"
+#include "kernels/xpbd/membranes.h"
 #include "kernels/xpbd/springs.h"
+#include "kernels/xpbd/tetrahedra.h"
 #include "simulation/solver/regions.h"
 
 namespace weft {
@@ -13,16 +15,18 @@ namespace {
 
 enum Kind { kPredict, kSeams, kStrips, kVelocities };
 
+/// The multipliers of one kind of element: a buffer per constraint.
+using Multipliers = std::vector<std::unique_ptr<Buffer<float>>>;
+
 class XpbdSolver final : public Solver {
 public:
-    explicit XpbdSolver(Model& model)
-        : model_(model),
-          spring_multipliers_("springs.multipliers",
-                              static_cast<std::size_t>(model.springs->elements.count())) {
-        if (model.hinges) {
-            hinge_multipliers_ = std::make_unique<Buffer<float>>(
-                "hinges.multipliers", static_cast<std::size_t>(model.hinges->elements.count()));
+    explicit XpbdSolver(Model& model) : model_(model) {
+        if (model.springs) add_kind("springs", model.springs->elements, {""});
+        if (model.membranes) add_kind("membranes", model.membranes->elements, {".area", ".shape"});
+        if (model.tetrahedra) {
+            add_kind("tetrahedra", model.tetrahedra->elements, {".volume", ".shape"});
         }
+        if (model.hinges) add_kind("hinges", model.hinges->elements, {""});
         make_predict();
         for (const int fresh : {0, 1}) {
             seams_[fresh] = {"seams", kSeams, project(kSeamPhase, fresh)};
@@ -79,18 +83,44 @@ private:
             update(kernels::update_velocities);
     }
 
+    void add_kind(const std::string& name, const Elements& elements,
+                  std::initializer_list<const char*> constraints) {
+        Multipliers& kind = multipliers_.emplace_back();
+        for (const char* constraint : constraints) {
+            kind.push_back(std::make_unique<Buffer<float>>(
+                name + ".multipliers" + constraint, static_cast<std::size_t>(elements.count())));
+        }
+    }
+
+    /// One launch per kind of element, in the order of multipliers_.
     std::vector<Launch> project(Phase phase, int fresh) {
         const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
         std::vector<Launch> launches;
-        Elements& springs = model_.springs->elements;
-        launches.push_back(launch(kernels::project_springs, springs.segments(phase),
-                                  *model_.positions, springs.vertices(), model_.springs->material,
-                                  spring_multipliers_, springs.count(), inverse_h2, fresh));
+        const auto add = [&](auto kernel, Elements& elements, auto&... rest) {
+            launches.push_back(launch(kernel, elements.segments(phase), *model_.positions,
+                                      elements.vertices(), rest..., elements.count(), inverse_h2,
+                                      fresh));
+        };
+        const auto multipliers = [&](std::size_t constraint = 0) -> Buffer<float>& {
+            return *multipliers_[launches.size()][constraint];
+        };
+        if (model_.springs) {
+            add(kernels::project_springs, model_.springs->elements, model_.springs->material,
+                multipliers());
+        }
+        if (model_.membranes) {
+            Membranes& membranes = *model_.membranes;
+            add(kernels::project_membranes, membranes.elements, membranes.shape, membranes.material,
+                multipliers(0), multipliers(1));
+        }
+        if (model_.tetrahedra) {
+            Tetrahedra& tetrahedra = *model_.tetrahedra;
+            add(kernels::project_tetrahedra, tetrahedra.elements, tetrahedra.shape,
+                tetrahedra.material, multipliers(0), multipliers(1));
+        }
         if (model_.hinges) {
-            Elements& hinges = model_.hinges->elements;
-            launches.push_back(launch(kernels::project_hinges, hinges.segments(phase),
-                                      *model_.positions, hinges.vertices(), model_.hinges->weights,
-                                      *hinge_multipliers_, hinges.count(), inverse_h2, fresh));
+            add(kernels::project_hinges, model_.hinges->elements, model_.hinges->weights,
+                multipliers());
         }
         return launches;
     }
@@ -158,15 +188,16 @@ private:
         }
     }
 
-    /// Springs are the first launch of a body, hinges the second; see project().
     void update_multipliers(Step::Adding& task, const TaskBody& body) {
-        task.updates(spring_multipliers_, body.launches[0].segments);
-        if (hinge_multipliers_) task.updates(*hinge_multipliers_, body.launches[1].segments);
+        for (std::size_t kind = 0; kind < multipliers_.size(); ++kind) {
+            for (const auto& buffer : multipliers_[kind]) {
+                task.updates(*buffer, body.launches[kind].segments);
+            }
+        }
     }
 
     Model& model_;
-    Buffer<float> spring_multipliers_;
-    std::unique_ptr<Buffer<float>> hinge_multipliers_;
+    std::vector<Multipliers> multipliers_;  ///< [kinds of elements that there are]
     TaskBody predict_, velocities_;
     TaskBody seams_[2], strips_[2];  ///< [fresh]
 };

@@ -7,10 +7,10 @@ namespace weft {
 /// Extended position based dynamics (Macklin, Mueller and Chentanez 2016) on strips and seams.
 ///
 /// A substep: predict, then `iterations` times
-///   seams:  all elements between two strips; springs, then hinges, colour by colour
+///   seams:  all elements between two strips; springs, membranes, tetrahedra, hinges, each kind
+///           colour by colour
 ///   strips: all elements inside a strip likewise, then obstacles, so that an iteration ends
-///   without
-///           penetration
+///           without penetration
 /// then velocities. This order is the same for every number of devices: it defines the result.
 std::unique_ptr<Solver> make_xpbd_solver(Model& model);
 

@@ -89,6 +89,81 @@ def test_unreferenced_vertex_is_only_a_warning(folder):
     assert "mesh.obj" in warnings[0] and "state hash" in result.stdout
 
 
+SOLID = """
+[scene]
+name = "solid"
+frames = 2
+dt = 0.02
+[[solid]]
+mesh = "body.{ending}"
+density = 1000.0
+young = 1.0e5
+poisson = 0.4
+"""
+MSH = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 1 1 1
+$EndNodes
+$Elements
+2
+1 4 2 0 1 1 2 3 4
+2 4 2 0 1 2 3 4 5
+$EndElements
+"""
+
+
+def use_solid(folder, text, ending="msh"):
+    (folder / f"body.{ending}").write_text(text)
+    (folder / "scene.toml").write_text(SOLID.format(ending=ending))
+
+
+SOLID_MESHES = {
+    "empty": ("", ["body.msh", "is empty"]),
+    "no_tetrahedra": (MSH.replace(" 4 2 0 1 ", " 2 2 0 1 "), ["body.msh", "no tetrahedra"]),
+    "index_out_of_range": (MSH.replace("2 3 4 5\n", "2 3 4 6\n"), ["body.msh:15", "node 6"]),
+    "not_a_number": (MSH.replace("5 1 1 1", "5 1 nan 1"), ["body.msh:10", "nan"]),
+    "degenerate": (MSH.replace("5 1 1 1", "5 0 0.5 0.5"), ["body.msh", "no volume"]),
+    "truncated": (MSH[:100], ["body.msh", "the file ends here"]),
+    "binary": (MSH.replace("2.2 0 8", "2.2 1 8"), ["body.msh:2", "binary", "ASCII"]),
+}
+
+
+@pytest.mark.parametrize("name", SOLID_MESHES)
+def test_solid_mesh(folder, name):
+    text, parts = SOLID_MESHES[name]
+    use_solid(folder, text)
+    expect_refused(folder, run(folder), *parts)
+
+
+def test_missing_solid_mesh_and_wrong_ending(folder):
+    use_solid(folder, MSH)
+    (folder / "body.msh").unlink()
+    expect_refused(folder, run(folder), "body.msh", "no such mesh file")
+    use_solid(folder, MSH, "stl")
+    expect_refused(folder, run(folder), "body.stl", ".msh", ".vtk")
+
+
+def test_oddities_of_solid_meshes_are_only_warnings(folder):
+    text = MSH.replace("1 2 3 4\n", "1 2 4 3\n").replace("$Nodes\n5", "$Nodes\n6")
+    text = text.replace("5 1 1 1\n", "5 1 1 1\n6 9 9 9\n")
+    text = text.replace("$Elements\n2", "$Elements\n3").replace(
+        "$EndElements", "3 4 2 0 1 5 4 3 2\n$EndElements")
+    use_solid(folder, text)
+    result = run(folder)
+    assert result.returncode == 0, result.stderr
+    warnings = [line for line in result.stderr.splitlines() if "warning" in line]
+    assert len(warnings) == 3
+    for warning, part in zip(warnings, ["repeat another", "are inverted", "belong to no"]):
+        assert "body.msh" in warning and part in warning
+
+
 COMMAND_LINES = {
     "unknown_device": (["--device", "cqu"], ["'cqu'", "unknown device", "cpu/N"]),
     "device_zero_cores": (["--device", "cpu/0"], ["cpu/0", "at least 1"]),

@@ -20,6 +20,31 @@ shape = "plane"
 point = [0.0, -1.0, 0.0]
 """
 
+SOLID = """
+[scene]
+name = "solid"
+frames = 2
+dt = 0.02
+[[solid]]
+grid = { size = [1.0, 0.2, 0.2], resolution = [11, 3, 3] }
+density = 1000.0
+young = 1.0e5
+poisson = 0.4
+"""
+
+ATTACHED = SOLID + """
+[[cloth]]
+name = "film"
+grid = { size = [0.5, 0.5], resolution = [6, 6] }
+density = 0.2
+membrane = { young = 1.0e6, poisson = 0.3, thickness = 1.0e-3 }
+[[attachment]]
+a = "film"
+b = "solid0"
+corners = ["x-z-"]
+stiffness = 100.0
+"""
+
 BARE_KERNELS = ["predict", "project_springs", "update_velocities"]
 BARE_BUFFERS = {"positions", "previous", "velocities", "gravity", "strips", "springs.vertices",
                 "springs.material", "springs.multipliers", "springs.segments"}
@@ -50,6 +75,11 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
     assert {"bending", "obstacles", "friction", "pins", "moving pins", "damping"} <= set(left_out)
     assert left_out["bending"]["kernels"] == [
         "gather_bending", "gather_bending_forces", "hinge_terms", "project_hinges"]
+    assert left_out["solids"]["kernels"] == [
+        "gather_tetrahedra", "gather_tetrahedra_forces", "project_tetrahedra", "tetrahedron_terms"]
+    assert left_out["membranes"]["kernels"] == [
+        "gather_membrane_forces", "gather_membranes", "membrane_terms", "project_membranes"]
+    assert "attachments" in left_out
     assert left_out["moving pins"]["kernels"] == ["move_pins"]
     assert "rub_on_sphere" in left_out["obstacles"]["kernels"]
 
@@ -64,15 +94,38 @@ def test_everything_named_is_there(inspect):
     assert not {"bending", "obstacles", "pins", "damping"} & set(names(found["left_out"], "what"))
 
 
+def test_solids_alone_need_nothing_of_cloth(inspect):
+    found = inspect(SOLID)
+    assert names(found["kernels"]) == ["predict", "project_tetrahedra", "update_velocities"]
+    buffers = names(found["buffers"])
+    assert {"tetrahedra.shape", "tetrahedra.multipliers.volume"} <= set(buffers)
+    assert not [name for name in buffers if name.startswith(("springs", "membranes", "hinges"))]
+    left_out = {entry["what"]: entry for entry in found["left_out"]}
+    assert left_out["springs"]["kernels"] == ["project_springs"]
+    energies = next(d for d in found["datasets"] if d["name"] == "energies")
+    assert energies["columns"] == ["frame", "kinetic", "gravity", "solid", "total"]
+    assert found["triangles"] == 2 * 2 * (10 * 2 + 10 * 2 + 2 * 2)
+
+
+def test_attachments_are_springs(inspect):
+    found = inspect(ATTACHED)
+    launches = {launch["kernel"]: launch["items"] for task in found["tasks"]
+                for launch in task["launches"] if task["kind"] == "strips"}
+    seams = {launch["kernel"]: launch["items"] for task in found["tasks"]
+             for launch in task["launches"] if task["kind"] == "seams"}
+    assert launches["project_springs"] + seams.get("project_springs", 0) == 1
+    assert not {"solids", "membranes", "attachments"} & set(names(found["left_out"], "what"))
+
+
 def test_every_kernel_is_used_or_left_out(inspect):
     known = []
-    for text in [SHEET, EVERYTHING]:
+    for text in [SHEET, EVERYTHING, SOLID, ATTACHED]:
         found = inspect(text)
         kernels = names(found["kernels"])
         kernels += [kernel for entry in found["left_out"] for kernel in entry["kernels"]]
         assert len(kernels) == len(set(kernels))
         known.append(set(kernels))
-    assert known[0] == known[1]
+    assert all(kernels == known[0] for kernels in known)
 
 
 @pytest.mark.parametrize("text", [SHEET, EVERYTHING], ids=["bare", "everything"])

@@ -29,7 +29,7 @@ def has_opencl():
     return bool(opencl_devices())
 
 
-@pytest.mark.parametrize("scene", ["tablecloth", "flag", "skirt"])
+@pytest.mark.parametrize("scene", ["tablecloth", "flag", "skirt", "beams", "hammock"])
 def test_state_hash(scene, tmp_path, has_opencl):
     variants = dict(ONE_CORE)
     if CORES >= 2:

@@ -9,10 +9,11 @@
 namespace weft::test {
 namespace {
 
-/// A sheet with a fixed and a moving pin that has been torn about: some springs are compressed.
+/// A sheet with a fixed and a moving pin, or another scene, that has been torn about: some elements
+/// are compressed.
 struct Torn {
-    Torn()
-        : model(parse_scene(kPinnedSheet, "test.toml"), warnings),
+    explicit Torn(const std::string& scene = kPinnedSheet)
+        : model(parse_scene(scene, "test.toml"), warnings),
           potential(model, 0.25),
           x(shaken(potential.predicted(), 0.02, 1)) {}
 
@@ -36,8 +37,12 @@ auto derivative(const Function& f, std::vector<Vec3> x, std::size_t vertex, doub
     return (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * kStep);
 }
 
-TEST(IncrementalPotential, GradientIsTheDerivativeOfTheEnergy) {
-    const Torn torn;
+class Derivatives : public testing::TestWithParam<const std::string*> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Derivatives, testing::Values(&kPinnedSheet, &kPinnedBlock));
+
+TEST_P(Derivatives, GradientIsTheDerivativeOfTheEnergy) {
+    const Torn torn(*GetParam());
     const auto gradient = torn.potential.gradient(torn.x);
     const auto energy = [&](const std::vector<Vec3>& x) { return torn.potential.energy(x); };
     double size = 0.0;
@@ -53,8 +58,8 @@ TEST(IncrementalPotential, GradientIsTheDerivativeOfTheEnergy) {
     }
 }
 
-TEST(IncrementalPotential, HessianIsTheDerivativeOfTheGradient) {
-    Torn torn;
+TEST_P(Derivatives, HessianIsTheDerivativeOfTheGradient) {
+    Torn torn(*GetParam());
     std::mt19937 engine(3);
     const auto along = shaken(std::vector<Vec3>(torn.x.size()), 1.0, 4);
     std::vector<Vec3> direction = along;

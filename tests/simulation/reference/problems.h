@@ -28,6 +28,32 @@ corners = ["x+z-"]
 motion = { velocity = [1.0, 0.0, 0.0] }
 )";
 
+/// A block that hangs from a corner, and a membrane that is tied to it.
+inline const std::string kPinnedBlock = R"(
+[scene]
+frames = 1
+dt = 0.04
+substeps = 4
+[[cloth]]
+name = "film"
+grid = { size = [0.6, 0.6], resolution = [4, 4] }
+translate = [0.0, 0.3, 0.0]
+density = 0.2
+membrane = { young = 1.0e5, poisson = 0.3, thickness = 1.0e-3 }
+[[solid]]
+name = "block"
+grid = { size = [0.6, 0.6, 0.6], resolution = [4, 4, 3] }
+density = 500.0
+young = 1.0e4
+poisson = 0.4
+pins = { corners = ["x-y+z-"] }
+[[attachment]]
+a = "film"
+b = "block"
+corners = ["x+z-", "x-z+"]
+stiffness = 1.0e3
+)";
+
 /// x with every coordinate moved by up to `size` [m], the same with every standard library.
 inline std::vector<Vec3> shaken(std::vector<Vec3> x, double size, unsigned seed) {
     std::mt19937 engine(seed);

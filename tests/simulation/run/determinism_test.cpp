@@ -26,6 +26,7 @@ struct TestScene {
 
 const TestScene kScenes[] = {
     {"Everything", kEverything, Method::kXpbd, "4f0878c76cf04b3783d0431c625fa8d1"},
+    {"Solids", kSolids, Method::kXpbd, ""},
     {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
     {"VbdEverything", kEverything, Method::kVbd, "b193d13349f46ab2fbbb62ed54af3a9d"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
@@ -161,9 +162,11 @@ std::string name_of_scene(const testing::TestParamInfo<TestScene>& info) { retur
 INSTANTIATE_TEST_SUITE_P(Scenes, Determinism, testing::ValuesIn(kScenes), name_of_scene);
 INSTANTIATE_TEST_SUITE_P(Scenes, OpenClDeterminism, testing::ValuesIn(kScenes), name_of_scene);
 
-TEST(DeterminismScene, TouchesAllObstacles) {
+class DeterminismScene : public testing::TestWithParam<TestScene> {};
+
+TEST_P(DeterminismScene, TouchesAllObstacles) {
     // Each obstacle taken away changes the outcome, so none is there for nothing.
-    const Scene whole = parse_scene(kEverything, "test.toml");
+    const Scene whole = parse_scene(GetParam().text, "test.toml");
     ManualRun all(whole);
     all.run(kFrames);
     for (std::size_t i = 0; i < whole.obstacles.size(); ++i) {
@@ -174,6 +177,8 @@ TEST(DeterminismScene, TouchesAllObstacles) {
         EXPECT_NE(run.hash(), all.hash()) << whole.obstacles[i].shape;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DeterminismScene, testing::ValuesIn(kScenes), name_of_scene);
 
 }  // namespace
 }  // namespace weft::test

@@ -77,7 +77,7 @@ TEST(Overrides, MistakesNameTheCommandLine) {
     EXPECT_NE(message_of("scene.frames").find("expected table.key=value"), std::string::npos);
     EXPECT_NE(message_of("=3").find("expected table.key=value"), std::string::npos);
     EXPECT_NE(message_of("scene..dt=3").find("expected table.key=value"), std::string::npos);
-    EXPECT_NE(message_of("cloth[9].density=3").find("the list has 2 entries"), std::string::npos);
+    EXPECT_NE(message_of("cloth[9].density=3").find("the list has 3 entries"), std::string::npos);
     EXPECT_NE(message_of("cloth[x].density=3").find("expected an index"), std::string::npos);
     EXPECT_NE(message_of("cloth[0.density=3").find("']' is missing"), std::string::npos);
     EXPECT_NE(message_of("scene[0]=3").find("there is no list here"), std::string::npos);

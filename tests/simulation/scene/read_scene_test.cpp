@@ -18,7 +18,9 @@ TEST(ReadScene, ReadsEveryPart) {
     EXPECT_EQ(scene.guard.max_speed, 500.0);
     EXPECT_EQ(scene.guard.max_strain, Guard{}.max_strain);
     EXPECT_EQ(scene.text, test::kFullScene);
-    ASSERT_EQ(scene.cloths.size(), 2U);
+    ASSERT_EQ(scene.cloths.size(), 3U);
+    ASSERT_EQ(scene.solids.size(), 1U);
+    ASSERT_EQ(scene.attachments.size(), 1U);
     ASSERT_EQ(scene.obstacles.size(), 4U);
 }
 
@@ -42,6 +44,33 @@ TEST(ReadScene, ReadsCloth) {
     ASSERT_TRUE(tube.pins[0].motion);
     EXPECT_EQ(tube.pins[0].motion->keys.size(), 2U);
     EXPECT_FALSE(tube.pins[1].motion);
+}
+
+TEST(ReadScene, ReadsSolidsMembranesAndAttachments) {
+    const Scene scene = parse_scene(test::kFullScene, "full.toml");
+    const Solid& brick = scene.solids[0];
+    EXPECT_EQ(std::get<BlockShape>(brick.shape).resolution, (std::array{4, 3, 2}));
+    EXPECT_EQ(brick.density, 1000.0);
+    EXPECT_EQ(brick.material.young, 1e5);
+    EXPECT_EQ(brick.material.poisson, 0.45);
+    EXPECT_EQ(brick.damping, 0.25);
+    ASSERT_EQ(brick.pins.size(), 1U);
+    EXPECT_EQ(brick.pins[0].faces, (std::vector<std::string>{"x-"}));
+    EXPECT_EQ(brick.pins[0].corners, (std::vector<std::string>{"x+y+z+"}));
+
+    const Cloth& film = scene.cloths[2];
+    EXPECT_EQ(film.stretch.stiffness, 0.0);
+    ASSERT_TRUE(film.membrane);
+    EXPECT_EQ(film.membrane->material.poisson, 0.3);
+    EXPECT_EQ(film.membrane->thickness, 1e-3);
+    EXPECT_FALSE(scene.cloths[0].membrane);
+
+    const Attachment& tie = scene.attachments[0];
+    EXPECT_EQ(tie.a, "film");
+    EXPECT_EQ(tie.b, "brick");
+    EXPECT_EQ(tie.selected.corners, (std::vector<std::string>{"x-z-"}));
+    EXPECT_EQ(tie.stiffness, 500.0);
+    EXPECT_EQ(tie.reach, 3.0);
 }
 
 TEST(ReadScene, WhatIsNotNamedIsAbsent) {
@@ -116,12 +145,17 @@ TEST(ReadScene, GravityFollowsItsKeys) {
     EXPECT_EQ(scene.gravity_at(9.0), (Vec3{20.0, -10.0, 0.0}));
 }
 
-TEST(ReadScene, SizeScalesAllGeneratedCloth) {
+TEST(ReadScene, SizeScalesAllGeneratedBodies) {
     const Scene scene = parse_scene(test::kFullScene, "s.toml", {{"scene.size=100000", "--set"}});
     const auto grid = std::get<GridShape>(scene.cloths[0].shape).resolution;
     const auto tube = std::get<CylinderShape>(scene.cloths[1].shape).resolution;
-    EXPECT_NEAR(grid[0] * grid[1] + tube[0] * tube[1], 100000, 1000);
+    const auto film = std::get<GridShape>(scene.cloths[2].shape).resolution;
+    const auto brick = std::get<BlockShape>(scene.solids[0].shape).resolution;
+    EXPECT_NEAR(
+        grid[0] * grid[1] + tube[0] * tube[1] + film[0] * film[1] + brick[0] * brick[1] * brick[2],
+        100000, 1500);
     EXPECT_NEAR(static_cast<double>(grid[1]) / grid[0], 9.0 / 5.0, 0.02);
+    EXPECT_NEAR(static_cast<double>(brick[0]) / grid[0], 4.0 / 5.0, 0.02);
 }
 
 TEST(ReadScene, SeveralRotationsAndBoxesAreLists) {

@@ -54,7 +54,7 @@ const Mistake kMistakes[] = {
      "unknown key 'radius' in obstacle[1]"},
     {"MissingKey", "frames = 3\n", "", "scene.frames is missing: expected an integer"},
     {"MissingStretch", "stretch = { stiffness = 1.0e4 }\n", "",
-     "cloth[0].stretch is missing: expected a table"},
+     "stretch: is missing: a cloth needs stretch, membrane or both"},
     {"WrongType", "frames = 3", "frames = \"three\"",
      "s.toml:3:10: scene.frames = \"three\": expected an integer"},
     {"FractionForInteger", "frames = 3", "frames = 2.5", "scene.frames = 2.5: expected an integer"},
@@ -106,14 +106,38 @@ const Mistake kMistakes[] = {
     {"LaterShape", "\"sphere\"", "\"mesh\"", "not available in this version of weft"},
     {"Contact", "[solver]", "[contact]\nself = true\n[solver]",
      "contact of cloth with itself and other cloth is not available in this version"},
-    {"Solid", "[solver]", "[[solid]]\ndensity = 1000.0\n[solver]",
-     "bodies of tetrahedra is not available in this version"},
+    {"ZeroYoung", "young = 1.0e5", "young = 0", "solid[0].young = 0: must be greater than 0 [Pa]"},
+    {"Incompressible", "poisson = 0.45", "poisson = 0.5",
+     "solid[0].poisson = 0.5: must be less than 0.5"},
+    {"PoissonTooLow", "poisson = 0.45", "poisson = -1", "solid[0].poisson = -1: must be greater"},
+    {"MembranePoisson", "poisson = 0.3", "poisson = 0.7", "cloth[2].membrane.poisson = 0.7: must"},
+    {"SolidWithoutShape", "grid = { size = [0.3, 0.2, 0.1], resolution = [4, 3, 2] }\n", "",
+     "solid[0]: needs exactly one of grid, mesh, has 0"},
+    {"FlatBlock", "resolution = [4, 3, 2]", "resolution = [4, 3, 1]", "must be at least 2"},
+    {"HugeBlock", "resolution = [4, 3, 2]", "resolution = [9000, 9000, 9000]",
+     "vertices, more than the 20000000 that indices can count"},
+    {"SolidHasClothName", "name = \"brick\"", "name = \"sheet\"",
+     "another cloth or solid has the name 'sheet'"},
+    {"CornerOfGridOnBlock", "\"x+y+z+\"", "\"x+z+\"",
+     "solid[0].pins.corners[0] = \"x+z+\": unknown; known: x-y-z-"},
+    {"UnknownFace", "faces = [\"x-\"]", "faces = [\"w-\"]", "unknown"},
+    {"AttachmentToNothing", "b = \"brick\"", "b = \"bricks\"",
+     "b = \"bricks\": no cloth or solid has this name; did you mean 'brick'?"},
+    {"AttachmentToItself", "b = \"brick\"", "b = \"film\"", "another cloth or solid than a"},
+    {"AttachmentOfNothing", "b = \"brick\"\ncorners = [\"x-z-\"]", "b = \"brick\"",
+     "say which of its vertices"},
+    {"AttachmentCorner", "b = \"brick\"\ncorners = [\"x-z-\"]",
+     "b = \"brick\"\ncorners = [\"x-y-z-\"]", "only a solid's grid has such corners"},
+    {"AttachmentFaces", "b = \"brick\"\ncorners = [\"x-z-\"]", "b = \"brick\"\nfaces = [\"x-\"]",
+     "only a solid's grid has faces"},
+    {"NegativeReach", "reach = 3.0", "reach = -1", "attachment[0].reach = -1: must be at least 0"},
     {"UnknownCorner", "\"x-z-\", ", "\"left\", ", "cloth[0].pins.corners"},
     {"CornerOfCylinder", "rims = [\"top\"]", "corners = [\"x-z-\"]", "only a grid has corners"},
     {"RimOfGrid", "corners = [\"x-z-\", \"x+z-\"]", "rims = [\"top\"]", "only a cylinder has rims"},
     {"NegativePin", "vertices = [30]", "vertices = [-1]", "vertices[0] = -1: must be at least 0"},
     {"InvertedBox", "vertices = [30]", "box = [[0, 0, 0], [1, -1, 1]]", "must be the lower one"},
-    {"SameName", "name = \"tube\"", "name = \"sheet\"", "another cloth has the name 'sheet'"},
+    {"SameName", "name = \"tube\"", "name = \"sheet\"",
+     "another cloth or solid has the name 'sheet'"},
     {"NameIsPath", "name = \"full\"", "name = \"../full\"", "expected a name that can be a file's"},
     {"KeysNotRising", "{ time = 1.0, ", "{ time = 0.0, ", "times must rise"},
     {"VelocityAndKeys", "motion = { velocity = [1.0, 0.0, 0.0] }",
@@ -154,8 +178,9 @@ TEST(SceneErrors, DeepNestingIsRefused) {
 }
 
 TEST(SceneErrors, NoCloth) {
-    EXPECT_NE(message_of("cloth = []\n[scene]\nframes = 1\ndt = 0.1\n").find("at least one cloth"),
-              std::string::npos);
+    EXPECT_NE(
+        message_of("cloth = []\n[scene]\nframes = 1\ndt = 0.1\n").find("at least one [[cloth]]"),
+        std::string::npos);
 }
 
 }  // namespace

@@ -42,6 +42,29 @@ motion = { keyframes = [{ time = 0.0 }, { time = 1.0, translate = [0.0, 1.0, 0.0
 [[cloth.pins]]
 vertices = [30]
 
+[[solid]]
+name = "brick"
+grid = { size = [0.3, 0.2, 0.1], resolution = [4, 3, 2] }
+translate = [0.0, 2.0, 0.0]
+density = 1000.0
+young = 1.0e5
+poisson = 0.45
+damping = 0.25
+pins = { faces = ["x-"], corners = ["x+y+z+"] }
+
+[[cloth]]
+name = "film"
+grid = { size = [0.3, 0.2], resolution = [4, 3] }
+density = 0.1
+membrane = { young = 1.0e6, poisson = 0.3, thickness = 1.0e-3 }
+
+[[attachment]]
+a = "film"
+b = "brick"
+corners = ["x-z-"]
+stiffness = 500.0
+reach = 3.0
+
 [[obstacle]]
 name = "ball"
 shape = "sphere"

@@ -50,11 +50,22 @@ void ReferenceXpbd::substep(double time) {
     };
     spring_multipliers_.assign(count(model_.springs), 0.0);
     hinge_multipliers_.assign(count(model_.hinges), 0.0);
+    membrane_multipliers_.assign(count(model_.membranes), {});
+    tetrahedron_multipliers_.assign(count(model_.tetrahedra), {});
     for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
         for (const Phase phase : {kSeamPhase, kInnerPhase}) {
-            sweep(model_.springs->elements, phase, [&](int spring) { project_spring(spring); });
-            if (!model_.hinges) continue;
-            sweep(model_.hinges->elements, phase, [&](int hinge) { project_hinge(hinge); });
+            if (model_.springs) {
+                sweep(model_.springs->elements, phase, [&](int spring) { project_spring(spring); });
+            }
+            if (model_.membranes) {
+                sweep(model_.membranes->elements, phase, [&](int m) { project_membrane(m); });
+            }
+            if (model_.tetrahedra) {
+                sweep(model_.tetrahedra->elements, phase, [&](int t) { project_tetrahedron(t); });
+            }
+            if (model_.hinges) {
+                sweep(model_.hinges->elements, phase, [&](int hinge) { project_hinge(hinge); });
+            }
         }
         for (const Obstacle& obstacle : model_.scene.obstacles) collide(obstacle, time);
     }
@@ -102,6 +113,88 @@ void ReferenceXpbd::project_hinge(int hinge) {
         const auto i = static_cast<std::size_t>(corners[k]);
         x[i] = x[i] + (inverse_mass_[i] * weight(k) * change / c) * bend;
     }
+}
+
+/// Both constraints at once: (grad C M^-1 grad C^T + A) dlambda = -C - A lambda, by Cramer's rule.
+void ReferenceXpbd::project_pair(std::span<const int> corners, std::span<const Vec3> gradients_0,
+                                 std::span<const Vec3> gradients_1, Pair c, Pair compliance,
+                                 Pair& lambda) {
+    double g00 = compliance[0];
+    double g11 = compliance[1];
+    double g01 = 0.0;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const double w = inverse_mass_[static_cast<std::size_t>(corners[k])];
+        g00 += w * dot(gradients_0[k], gradients_0[k]);
+        g01 += w * dot(gradients_0[k], gradients_1[k]);
+        g11 += w * dot(gradients_1[k], gradients_1[k]);
+    }
+    const double r0 = -c[0] - compliance[0] * lambda[0];
+    const double r1 = -c[1] - compliance[1] * lambda[1];
+    const double determinant = g00 * g11 - g01 * g01;
+    const double change0 = (r0 * g11 - r1 * g01) / determinant;
+    const double change1 = (r1 * g00 - r0 * g01) / determinant;
+    lambda[0] += change0;
+    lambda[1] += change1;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const auto i = static_cast<std::size_t>(corners[k]);
+        x[i] = x[i] + inverse_mass_[i] * (change0 * gradients_0[k] + change1 * gradients_1[k]);
+    }
+}
+
+/// Deformation by the images of the axes of the plane at rest. The energy is mu/2 S^2 + lambda/2 (J
+/// - 1)^2 with S^2 = |F|^2 - 2 J.
+void ReferenceXpbd::project_membrane(int triangle) {
+    const Membranes& all = *model_.membranes;
+    const auto corners = all.elements.vertices_of(triangle);
+    Vec3 f, g;
+    for (int k = 0; k < 3; ++k) {
+        const auto [along_u, along_v] = all.shape_gradient(triangle, k);
+        const Vec3 corner = x[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
+        f = f + along_u * corner;
+        g = g + along_v * corner;
+    }
+    const double area = length(cross(f, g));
+    const double strain = std::sqrt(std::max(1e-16, dot(f, f) + dot(g, g) - 2.0 * area));
+    const Vec3 normal = (1.0 / area) * cross(f, g);
+    std::array<Vec3, 3> of_area, of_shape;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [along_u, along_v] = all.shape_gradient(triangle, static_cast<int>(k));
+        of_area[k] = along_u * cross(g, normal) + along_v * cross(normal, f);
+        of_shape[k] = (1.0 / strain) * (along_u * f + along_v * g - of_area[k]);
+    }
+    const double h2 = model_.h * model_.h;
+    project_pair(corners, of_area, of_shape, {area - 1.0, strain},
+                 {1.0 / (all.lambda(triangle) * h2), 1.0 / (all.mu(triangle) * h2)},
+                 membrane_multipliers_[static_cast<std::size_t>(triangle)]);
+}
+
+/// Deformation by the images of the axes at rest. The energy is mu/2 S^2 + (lambda - mu)/2 (J -
+/// 1)^2 with S^2 = |F|^2 + J^2 - 4 J.
+void ReferenceXpbd::project_tetrahedron(int tetrahedron) {
+    const Tetrahedra& all = *model_.tetrahedra;
+    const auto corners = all.elements.vertices_of(tetrahedron);
+    Vec3 f, g, h;
+    for (int k = 0; k < 4; ++k) {
+        const Vec3 b = all.shape_gradient(tetrahedron, k);
+        const Vec3 corner = x[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])];
+        f = f + b.x * corner;
+        g = g + b.y * corner;
+        h = h + b.z * corner;
+    }
+    const double J = dot(f, cross(g, h));
+    const double strain =
+        std::sqrt(std::max(1e-16, dot(f, f) + dot(g, g) + dot(h, h) + J * J - 4.0 * J));
+    std::array<Vec3, 4> of_volume, of_shape;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Vec3 b = all.shape_gradient(tetrahedron, static_cast<int>(k));
+        of_volume[k] = b.x * cross(g, h) + b.y * cross(h, f) + b.z * cross(f, g);
+        of_shape[k] = (1.0 / strain) * (b.x * f + b.y * g + b.z * h + (J - 2.0) * of_volume[k]);
+    }
+    const double h2 = model_.h * model_.h;
+    const double mu = all.mu(tetrahedron);
+    project_pair(corners, of_volume, of_shape, {J - 1.0, strain},
+                 {1.0 / ((all.lambda(tetrahedron) - mu) * h2), 1.0 / (mu * h2)},
+                 tetrahedron_multipliers_[static_cast<std::size_t>(tetrahedron)]);
 }
 
 void ReferenceXpbd::collide(const Obstacle& obstacle, double time) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "simulation/model/model.h"
@@ -18,13 +19,20 @@ public:
     std::vector<Vec3> x, v;  ///< new order [m], [m/s]
 
 private:
+    using Pair = std::array<double, 2>;
+
     void project_spring(int spring);
     void project_hinge(int hinge);
+    void project_membrane(int triangle);
+    void project_tetrahedron(int tetrahedron);
+    void project_pair(std::span<const int> corners, std::span<const Vec3> gradients_0,
+                      std::span<const Vec3> gradients_1, Pair c, Pair compliance, Pair& lambda);
     void collide(const Obstacle& obstacle, double time);
 
     const Model& model_;
     std::vector<double> inverse_mass_, decay_;
     std::vector<double> spring_multipliers_, hinge_multipliers_;
+    std::vector<Pair> membrane_multipliers_, tetrahedron_multipliers_;
     std::vector<Vec3> previous_;
 };
 

@@ -43,8 +43,48 @@ normal = [0.1, 1.0, 0.2]
 thickness = 0.002
 )";
 
-TEST(Xpbd, EverySubstepIsThatOfAnIndependentImplementationInDoublePrecision) {
-    const Scene scene = parse_scene(kOnBall, "test.toml");
+/// A solid that hangs from a corner and falls on a plane, with a membrane tied to it.
+const std::string kOnPlane = R"(
+[scene]
+frames = 1
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 5
+[[cloth]]
+name = "film"
+grid = { size = [0.4, 0.5], resolution = [6, 8] }
+rotate = [1.0, 0.0, 1.0, 10.0]
+translate = [0.0, 0.82, 0.35]
+density = 0.2
+membrane = { young = 1.0e5, poisson = 0.3, thickness = 1.0e-3 }
+bend = { stiffness = 1.0e-2 }
+[[solid]]
+name = "brick"
+grid = { size = [0.3, 0.2, 0.4], resolution = [5, 4, 6] }
+rotate = [1.0, 0.0, 1.0, 20.0]
+translate = [0.0, 0.63, 0.0]
+density = 500.0
+young = 1.0e5
+poisson = 0.4
+damping = 0.5
+pins = { corners = ["x-y+z-"] }
+[[attachment]]
+a = "film"
+b = "brick"
+corners = ["x-z-", "x+z-"]
+stiffness = 1.0e3
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.5, 0.0]
+friction = 0.3
+motion = { velocity = [0.2, 1.0, 0.0] }
+)";
+
+class XpbdReference : public testing::TestWithParam<const std::string*> {};
+
+TEST_P(XpbdReference, EverySubstepIsThatOfAnIndependentImplementationInDoublePrecision) {
+    const Scene scene = parse_scene(*GetParam(), "test.toml");
     ManualRun run(scene);
     double moved_most = 0.0;
     for (int substeps = 1; substeps <= 4; ++substeps) {
@@ -62,6 +102,8 @@ TEST(Xpbd, EverySubstepIsThatOfAnIndependentImplementationInDoublePrecision) {
     }
     EXPECT_GT(moved_most, 0.5) << "something happens";
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, XpbdReference, testing::Values(&kOnBall, &kOnPlane));
 
 /// The number of executions of every item of every launch in one step.
 long items_of(const Step& step) {
@@ -95,6 +137,35 @@ TEST(Xpbd, RegionsOnlyWaitForTheirNeighboursAtTheCut) {
     std::set<int> regions;
     for (const Task& task : step.tasks()) regions.insert(task.region);
     EXPECT_EQ(regions, (std::set<int>{0, 1, 2}));
+}
+
+/// The kernels that a scene's bodies launch.
+std::set<std::string_view> kernels_of(const std::string& scene) {
+    ManualRun run(parse_scene(scene, "test.toml"));
+    std::set<std::string_view> kernels;
+    for (const TaskBody* body : run.solver->bodies()) {
+        for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
+    }
+    return kernels;
+}
+
+TEST(Xpbd, LaunchesTetrahedraAndMembranesOnlyWhereThereAreSome) {
+    EXPECT_EQ(kernels_of(R"(
+[scene]
+frames = 1
+dt = 0.01
+[[solid]]
+grid = { size = [1.0, 1.0, 1.0], resolution = [3, 3, 3] }
+density = 1.0
+young = 1.0
+poisson = 0.0
+)"),
+              (std::set<std::string_view>{"predict", "project_tetrahedra", "update_velocities"}));
+    const auto all = kernels_of(kSolids);
+    for (const char* kernel :
+         {"project_springs", "project_membranes", "project_tetrahedra", "project_hinges"}) {
+        EXPECT_TRUE(all.contains(kernel)) << kernel;
+    }
 }
 
 TEST(Xpbd, HasNoBodyLaunchOrBufferForWhatASceneDoesNotName) {

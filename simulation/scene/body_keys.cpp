@@ -1,0 +1,393 @@
+#include "simulation/scene/body_keys.h"
+
+#include "simulation/scene/limits.h"
+#include "simulation/scene/node_values.h"
+
+namespace weft {
+namespace {
+
+const Range kVertices = between(2, 1e6);
+const Range kTime = between(0.0, 1e9);
+
+const std::vector<std::string> kGridCorners{"x-z-", "x+z-", "x-z+", "x+z+"};
+const std::vector<std::string> kBlockCorners{"x-y-z-", "x+y-z-", "x-y+z-", "x+y+z-",
+                                             "x-y-z+", "x+y-z+", "x-y+z+", "x+y+z+"};
+
+const TableKeys& keyframe_table() {
+    static const TableKeys table{{
+        {.name = "time",
+         .help = "time since the start",
+         .unit = "s",
+         .required = true,
+         .range = kTime},
+        {.name = "translate",
+         .forms = {{3}},
+         .help = "displacement from the place at the start",
+         .unit = "m",
+         .fallback = std::vector<double>{0, 0, 0},
+         .range = kPlace},
+        {.name = "rotate",
+         .help = "angle about the motion's axis",
+         .unit = "degrees",
+         .fallback = 0.0,
+         .range = between(-1e9, 1e9)},
+    }};
+    return table;
+}
+
+const TableKeys& motion_table() {
+    static const TableKeys table{{
+        {.name = "velocity",
+         .forms = {{3}},
+         .help = "constant velocity; or use keyframes",
+         .unit = "m/s",
+         .range = between(-1e4, 1e4)},
+        {.name = "angular_velocity",
+         .help = "constant rate of turn; or use keyframes",
+         .unit = "degrees/s",
+         .range = between(-1e6, 1e6)},
+        {.name = "axis",
+         .forms = {{3}},
+         .help = "axis of the turn; any length",
+         .fallback = std::vector<double>{0, 1, 0}},
+        {.name = "center",
+         .forms = {{3}},
+         .help = "point that the axis goes through, at the start; default: the obstacle's own "
+                 "centre, for pins the origin",
+         .unit = "m",
+         .range = kPlace},
+        {.name = "keyframes",
+         .type = Type::kTable,
+         .forms = {{kAny}},
+         .help = "by rising time; linear between, held before the first and after the last",
+         .table = &keyframe_table()},
+    }};
+    return table;
+}
+
+const TableKeys& grid_table() {
+    static const TableKeys table{{
+        {.name = "size",
+         .forms = {{2}},
+         .help = "width along x and depth along z",
+         .unit = "m",
+         .required = true,
+         .range = kLength},
+        {.name = "resolution",
+         .type = Type::kInteger,
+         .forms = {{2}},
+         .help = "vertices along x and along z",
+         .required = true,
+         .range = kVertices},
+    }};
+    return table;
+}
+
+const TableKeys& cylinder_table() {
+    static const TableKeys table{{
+        {.name = "radius",
+         .forms = {{2}},
+         .help = "at the top and at the bottom",
+         .unit = "m",
+         .required = true,
+         .range = kLength},
+        {.name = "height",
+         .help = "from bottom to top, along y",
+         .unit = "m",
+         .required = true,
+         .range = kLength},
+        {.name = "resolution",
+         .type = Type::kInteger,
+         .forms = {{2}},
+         .help = "vertices around (at least 3) and from top to bottom",
+         .required = true,
+         .range = kVertices},
+    }};
+    return table;
+}
+
+const TableKeys& block_table() {
+    static const TableKeys table{{
+        {.name = "size",
+         .forms = {{3}},
+         .help = "along x, y and z",
+         .unit = "m",
+         .required = true,
+         .range = kLength},
+        {.name = "resolution",
+         .type = Type::kInteger,
+         .forms = {{3}},
+         .help = "vertices along x, y and z",
+         .required = true,
+         .range = kVertices},
+    }};
+    return table;
+}
+
+const TableKeys& stretch_table() {
+    static const TableKeys table{{
+        {.name = "stiffness",
+         .help = "of the spring along each edge",
+         .unit = "N/m",
+         .required = true,
+         .range = positive()},
+    }};
+    return table;
+}
+
+const Key& young_key() {
+    static const Key key{.name = "young",
+                         .help = "Young's modulus",
+                         .unit = "Pa",
+                         .required = true,
+                         .range = positive_up_to(1e15)};
+    return key;
+}
+
+const Key& poisson_key() {
+    static const Key key{
+        .name = "poisson",
+        .help = "Poisson's ratio: 0.5 would be incompressible",
+        .required = true,
+        .range = {.low = -1.0, .high = 0.5, .low_excluded = true, .high_excluded = true}};
+    return key;
+}
+
+const TableKeys& membrane_table() {
+    static const TableKeys table{{
+        young_key(),
+        poisson_key(),
+        {.name = "thickness",
+         .help = "of the sheet",
+         .unit = "m",
+         .required = true,
+         .range = positive_up_to(1.0)},
+    }};
+    return table;
+}
+
+const TableKeys& bend_table() {
+    static const TableKeys table{{
+        {.name = "stiffness",
+         .help = "quadratic bending stiffness; 0: no bending",
+         .unit = "J",
+         .required = true,
+         .range = at_least(0.0)},
+    }};
+    return table;
+}
+
+// Which vertices: corners where there are some, indices, boxes.
+Key corners_key(std::vector<std::string> choices, std::string help) {
+    return {.name = "corners",
+            .type = Type::kText,
+            .forms = {{kAny}},
+            .help = std::move(help),
+            .choices = std::move(choices)};
+}
+
+const Key& rims_key() {
+    static const Key key{.name = "rims",
+                         .type = Type::kText,
+                         .forms = {{kAny}},
+                         .help = "rims of a cylinder",
+                         .choices = {"top", "bottom"}};
+    return key;
+}
+
+const Key& faces_key() {
+    static const Key key{.name = "faces",
+                         .type = Type::kText,
+                         .forms = {{kAny}},
+                         .help = "faces of a block",
+                         .choices = {"x-", "x+", "y-", "y+", "z-", "z+"}};
+    return key;
+}
+
+const Key& vertices_key() {
+    static const Key key{.name = "vertices",
+                         .type = Type::kInteger,
+                         .forms = {{kAny}},
+                         .help = "indices from 0, in the order of the mesh",
+                         .range = between(0, static_cast<double>(kMaxVertices - 1))};
+    return key;
+}
+
+const Key& box_key() {
+    static const Key key{
+        .name = "box",
+        .forms = {{2, 3}, {kAny, 2, 3}},
+        .help =
+            "all vertices that start inside [[low x, y, z], [high x, y, z]], or inside any of "
+            "a list of these",
+        .unit = "m"};
+    return key;
+}
+
+Key pins_motion_key() {
+    return motion_key("carries the pinned vertices along; default: they stay where they are");
+}
+
+const TableKeys& cloth_pins_table() {
+    static const TableKeys table{{corners_key(kGridCorners, "corners of a grid"), rims_key(),
+                                  vertices_key(), box_key(), pins_motion_key()}};
+    return table;
+}
+
+const TableKeys& solid_pins_table() {
+    static const TableKeys table{{corners_key(kBlockCorners, "corners of a block"), faces_key(),
+                                  vertices_key(), box_key(), pins_motion_key()}};
+    return table;
+}
+
+Key pins_key(const TableKeys& table) {
+    return {.name = "pins",
+            .type = Type::kTable,
+            .forms = {{}, {kAny}},
+            .help = "vertices that do not move freely, or a list of such groups",
+            .table = &table};
+}
+
+// Placement, in the order in which it is applied.
+const Key& scale_key() {
+    static const Key key{.name = "scale",
+                         .forms = {{}, {3}},
+                         .help = "one factor, or one per axis",
+                         .range = kLength};
+    return key;
+}
+
+const Key& translate_key() {
+    static const Key key{.name = "translate",
+                         .forms = {{3}},
+                         .help = "after scale and rotation",
+                         .unit = "m",
+                         .range = kPlace};
+    return key;
+}
+
+const Key& damping_key() {
+    static const Key key{.name = "damping",
+                         .help = "rate at which velocities decay; default: no damping",
+                         .unit = "1/s",
+                         .range = between(0.0, 1e6)};
+    return key;
+}
+
+}  // namespace
+
+Key motion_key(std::string help) {
+    return {
+        .name = "motion", .type = Type::kTable, .help = std::move(help), .table = &motion_table()};
+}
+
+const TableKeys& cloth_table() {
+    static const TableKeys table{
+        .keys =
+            {
+                {.name = "name", .type = Type::kText, .help = "default: cloth0, cloth1, ..."},
+                {.name = "grid",
+                 .type = Type::kTable,
+                 .help = "flat sheet in the x-z plane around the origin",
+                 .table = &grid_table()},
+                {.name = "cylinder",
+                 .type = Type::kTable,
+                 .help = "open side of a cone along y around the origin",
+                 .table = &cylinder_table()},
+                {.name = "mesh",
+                 .type = Type::kText,
+                 .help = "Wavefront OBJ file, relative to the scene file"},
+                scale_key(),
+                rotation_key(),
+                translate_key(),
+                {.name = "density",
+                 .help = "mass per area",
+                 .unit = "kg/m^2",
+                 .required = true,
+                 .range = positive_up_to(1e6)},
+                {.name = "stretch",
+                 .type = Type::kTable,
+                 .help = "springs along the edges; a cloth has these, a membrane or both",
+                 .table = &stretch_table()},
+                {.name = "membrane",
+                 .type = Type::kTable,
+                 .help = "the triangles as a thin sheet of elastic material (stable Neo-Hookean)",
+                 .table = &membrane_table()},
+                {.name = "bend",
+                 .type = Type::kTable,
+                 .help = "bending over edges; default: no bending",
+                 .table = &bend_table()},
+                damping_key(),
+                pins_key(cloth_pins_table()),
+            },
+        .exactly_one_of = {"grid", "cylinder", "mesh"},
+    };
+    return table;
+}
+
+const TableKeys& solid_table() {
+    static const TableKeys table{
+        .keys =
+            {
+                {.name = "name", .type = Type::kText, .help = "default: solid0, solid1, ..."},
+                {.name = "grid",
+                 .type = Type::kTable,
+                 .help = "block around the origin, each cell cut into 6 tetrahedra",
+                 .table = &block_table()},
+                {.name = "mesh",
+                 .type = Type::kText,
+                 .help = "Gmsh (.msh) or legacy VTK (.vtk) file, relative to the scene file"},
+                scale_key(),
+                rotation_key(),
+                translate_key(),
+                {.name = "density",
+                 .help = "mass per volume",
+                 .unit = "kg/m^3",
+                 .required = true,
+                 .range = positive_up_to(1e6)},
+                young_key(),
+                poisson_key(),
+                damping_key(),
+                pins_key(solid_pins_table()),
+            },
+        .exactly_one_of = {"grid", "mesh"},
+    };
+    return table;
+}
+
+const TableKeys& attachment_table() {
+    const auto all_corners = [] {
+        std::vector<std::string> corners = kGridCorners;
+        corners.insert(corners.end(), kBlockCorners.begin(), kBlockCorners.end());
+        return corners;
+    };
+    static const TableKeys table{{
+        {.name = "a",
+         .type = Type::kText,
+         .help = "name of the cloth or solid whose vertices are tied",
+         .required = true},
+        {.name = "b",
+         .type = Type::kText,
+         .help = "name of another one: each vertex is tied to the nearest vertex of this",
+         .required = true},
+        {.name = "stiffness",
+         .help = "of each spring that ties two vertices; its rest length is their distance at the "
+                 "start",
+         .unit = "N/m",
+         .required = true,
+         .range = positive()},
+        {.name = "reach",
+         .help = "selected vertices that have nothing of b nearer than this stay free; default: no "
+                 "limit",
+         .unit = "m",
+         .range = between(0.0, 1e6)},
+        corners_key(all_corners(), "corners of a, if it is a grid or block"),
+        rims_key(),
+        faces_key(),
+        vertices_key(),
+        box_key(),
+    }};
+    return table;
+}
+
+}  // namespace weft

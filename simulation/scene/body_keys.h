@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "simulation/scene/keys.h"
+
+/// Parts of the table in keys.h: what cloths, solids and their attachments are described by.
+namespace weft {
+
+inline constexpr Range kLength = between(1e-6, 1e6);  ///< [m]
+inline constexpr Range kPlace = between(-1e6, 1e6);   ///< [m]
+
+/// How an obstacle or a group of pins moves.
+Key motion_key(std::string help);
+
+const TableKeys& cloth_table();
+const TableKeys& solid_table();
+const TableKeys& attachment_table();
+
+}  // namespace weft

@@ -1,0 +1,221 @@
+#include "simulation/scene/read_bodies.h"
+
+#include <filesystem>
+
+#include "simulation/scene/near_miss.h"
+#include "simulation/scene/node_values.h"
+#include "simulation/scene/read_motion.h"
+
+namespace weft {
+namespace {
+
+template <class Number>
+std::array<Number, 2> pair_of(const std::vector<Number>& values) {
+    return {values.at(0), values.at(1)};
+}
+
+template <class Number>
+std::array<Number, 3> triple_of(const std::vector<Number>& values) {
+    return {values.at(0), values.at(1), values.at(2)};
+}
+
+CylinderShape read_cylinder(const Node& table) {
+    CylinderShape shape{pair_of(number_values(table, "radius")), number_value(table, "height"),
+                        pair_of(integer_values(table, "resolution"))};
+    if (shape.resolution[0] < 3) {
+        throw value_error(table, "resolution", "a cylinder needs at least 3 vertices around");
+    }
+    return shape;
+}
+
+std::string mesh_path(const Node& table, const std::string& scene_path) {
+    const std::string name = text_value(table, "mesh");
+    if (name.empty()) throw value_error(table, "mesh", "expected the name of a mesh file");
+    return (std::filesystem::path(scene_path).parent_path() / name).string();
+}
+
+Shape read_cloth_shape(const Node& table, const std::string& scene_path) {
+    if (const Node* grid = table.find("grid")) {
+        return GridShape{pair_of(number_values(*grid, "size")),
+                         pair_of(integer_values(*grid, "resolution"))};
+    }
+    if (const Node* cylinder = table.find("cylinder")) return read_cylinder(*cylinder);
+    return MeshFile{mesh_path(table, scene_path)};
+}
+
+Shape read_solid_shape(const Node& table, const std::string& scene_path) {
+    if (const Node* block = table.find("grid")) {
+        return BlockShape{triple_of(number_values(*block, "size")),
+                          triple_of(integer_values(*block, "resolution"))};
+    }
+    return MeshFile{mesh_path(table, scene_path)};
+}
+
+Transform read_transform(const Node& table) {
+    Transform transform;
+    if (const Node* scale = table.find("scale")) {
+        if (scale->is_array()) {
+            transform.scale = vec3_of(*scale);
+        } else {
+            const double factor = number_value(table, "scale");
+            transform.scale = {factor, factor, factor};
+        }
+    }
+    transform.rotations = rotation_values(table, "rotate");
+    if (table.find("translate")) transform.translate = vec3_value(table, "translate");
+    return transform;
+}
+
+std::vector<Box3> read_boxes(const Node& pins) {
+    std::vector<Box3> boxes;
+    const Node* list = pins.find("box");
+    if (!list) return boxes;
+    for (const Node& corners : list->array()) {
+        const Box3 box{vec3_of(corners.array()[0]), vec3_of(corners.array()[1])};
+        if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) {
+            throw value_error(pins, "box", "the first corner must be the lower one on every axis");
+        }
+        boxes.push_back(box);
+    }
+    return boxes;
+}
+
+bool has_corner(const Shape& shape, const std::string& corner) {
+    const bool is_of_block = corner.size() == 6;  // "x-y-z-", while a grid's are "x-z-"
+    return is_of_block ? std::holds_alternative<BlockShape>(shape)
+                       : std::holds_alternative<GridShape>(shape);
+}
+
+/// Which vertices of a body with that shape.
+void read_selection(const Node& table, const Shape& shape, Selection& selection) {
+    selection.where = table.mark.text();
+    selection.corners = text_values(table, "corners");
+    selection.rims = text_values(table, "rims");
+    selection.faces = text_values(table, "faces");
+    selection.vertices = integer_values(table, "vertices");
+    selection.boxes = read_boxes(table);
+    for (const std::string& corner : selection.corners) {
+        if (!has_corner(shape, corner)) {
+            throw value_error(table, "corners",
+                              corner.size() == 6
+                                  ? "only a solid's grid has such corners; use vertices or box"
+                                  : "only a grid has corners; use vertices or box");
+        }
+    }
+    if (!selection.rims.empty() && !std::holds_alternative<CylinderShape>(shape)) {
+        throw value_error(table, "rims", "only a cylinder has rims; use vertices or box");
+    }
+    if (!selection.faces.empty() && !std::holds_alternative<BlockShape>(shape)) {
+        throw value_error(table, "faces", "only a solid's grid has faces; use vertices or box");
+    }
+}
+
+bool names_any(const Selection& selection) {
+    return !selection.corners.empty() || !selection.rims.empty() || !selection.faces.empty() ||
+           !selection.vertices.empty() || !selection.boxes.empty();
+}
+
+std::vector<PinGroup> read_pins(const Node& table, const Shape& shape) {
+    std::vector<PinGroup> groups;
+    const Node* list = table.find("pins");
+    if (!list) return groups;
+    for (const Node& node : list->array()) {
+        PinGroup pins;
+        read_selection(node, shape, pins);
+        pins.motion = read_motion(node, Vec3{});
+        if (names_any(pins)) groups.push_back(std::move(pins));
+    }
+    return groups;
+}
+
+Material read_material(const Node& table) {
+    return {number_value(table, "young"), number_value(table, "poisson")};
+}
+
+const Shape* find_shape(const Scene& scene, const std::string& name) {
+    for (const Cloth& cloth : scene.cloths) {
+        if (cloth.name == name) return &cloth.shape;
+    }
+    for (const Solid& solid : scene.solids) {
+        if (solid.name == name) return &solid.shape;
+    }
+    return nullptr;
+}
+
+const Shape& named_shape(const Node& table, std::string_view key, const Scene& scene) {
+    const std::string name = text_value(table, key);
+    if (const Shape* shape = find_shape(scene, name)) return *shape;
+    std::vector<std::string> names;
+    for (const Cloth& cloth : scene.cloths) names.push_back(cloth.name);
+    for (const Solid& solid : scene.solids) names.push_back(solid.name);
+    throw value_error(table, key,
+                      "no cloth or solid has this name; " + near_miss_or_list(name, names));
+}
+
+Attachment read_attachment(const Node& table, const Scene& scene) {
+    Attachment attachment;
+    attachment.where = table.mark.text();
+    attachment.a = text_value(table, "a");
+    attachment.b = text_value(table, "b");
+    const Shape& shape = named_shape(table, "a", scene);
+    named_shape(table, "b", scene);
+    if (attachment.a == attachment.b) {
+        throw value_error(table, "b", "must be another cloth or solid than a");
+    }
+    read_selection(table, shape, attachment.selected);
+    if (!names_any(attachment.selected)) {
+        throw value_error(table, "a",
+                          "say which of its vertices: corners, rims, faces, vertices or box");
+    }
+    attachment.stiffness = number_value(table, "stiffness");
+    if (table.find("reach")) attachment.reach = number_value(table, "reach");
+    return attachment;
+}
+
+}  // namespace
+
+Cloth read_cloth(const Node& table, const std::string& scene_path) {
+    Cloth cloth;
+    cloth.where = table.mark.text();
+    cloth.shape = read_cloth_shape(table, scene_path);
+    cloth.transform = read_transform(table);
+    cloth.density = number_value(table, "density");
+    if (const Node* stretch = table.find("stretch")) {
+        cloth.stretch.stiffness = number_value(*stretch, "stiffness");
+    }
+    if (const Node* membrane = table.find("membrane")) {
+        cloth.membrane = Membrane{read_material(*membrane), number_value(*membrane, "thickness")};
+    }
+    if (!table.find("stretch") && !cloth.membrane) {
+        throw value_error(table, "stretch", "is missing: a cloth needs stretch, membrane or both");
+    }
+    if (const Node* bend = table.find("bend")) {
+        if (const auto stiffness = optional_number(*bend, "stiffness"))
+            cloth.bend = Bend{*stiffness};
+    }
+    cloth.damping = optional_number(table, "damping");
+    cloth.pins = read_pins(table, cloth.shape);
+    return cloth;
+}
+
+Solid read_solid(const Node& table, const std::string& scene_path) {
+    Solid solid;
+    solid.where = table.mark.text();
+    solid.shape = read_solid_shape(table, scene_path);
+    solid.transform = read_transform(table);
+    solid.density = number_value(table, "density");
+    solid.material = read_material(table);
+    solid.damping = optional_number(table, "damping");
+    solid.pins = read_pins(table, solid.shape);
+    return solid;
+}
+
+std::vector<Attachment> read_attachments(const Node& root, const Scene& scene) {
+    std::vector<Attachment> attachments;
+    const Node* list = root.find("attachment");
+    if (!list) return attachments;
+    for (const Node& table : list->array()) attachments.push_back(read_attachment(table, scene));
+    return attachments;
+}
+
+}  // namespace weft

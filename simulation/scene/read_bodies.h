@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "simulation/scene/document.h"
+#include "simulation/scene/scene.h"
+
+/// Cloths, solids and attachments out of a checked document. Throw UserError.
+namespace weft {
+
+/// scene_path: mesh files are relative to its folder. All but the name.
+Cloth read_cloth(const Node& table, const std::string& scene_path);
+Solid read_solid(const Node& table, const std::string& scene_path);
+
+/// scene: has its cloths and solids already.
+std::vector<Attachment> read_attachments(const Node& root, const Scene& scene);
+
+}  // namespace weft
