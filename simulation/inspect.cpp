@@ -140,10 +140,10 @@ std::function<bool(const std::string&)> is_about(const std::string& word) {
 void add_elements(LeftOutList& list, const Model& model) {
     if (!model.springs) {
         list.add("springs", "no cloth has stretch.stiffness, and nothing is attached",
-                 is_about("springs"));
+                 is_about("spring"));
     }
-    if (!model.membranes) list.add("membranes", "no cloth has a membrane", is_about("membranes"));
-    if (!model.tetrahedra) list.add("solids", "the scene has no [[solid]]", is_about("tetrahedra"));
+    if (!model.membranes) list.add("membranes", "no cloth has a membrane", is_about("membrane"));
+    if (!model.tetrahedra) list.add("solids", "the scene has no [[solid]]", is_about("tetrahedr"));
     if (model.scene.attachments.empty()) {
         list.add("attachments", "the scene has no [[attachment]]");
     }

@@ -55,15 +55,15 @@ WEFT_KERNEL(project_tetrahedra, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const
     const real shape_strain =
         square_root(larger(strain.shape + part * strain.growth * strain.growth, splat(0.0f)));
     const real inverse = inverse_strain(shape_strain);
-    const real slope = part * strain.growth - splat(1.0f);  // S dS = F : dF + slope dJ
+    const real balance = part * strain.growth - splat(1.0f);  // S dS = F : dF + balance dJ
     // Gradients of both constraints at the corners 1 to 3; corner 0 balances them.
     const real3 v1 = multiply_mat(cofactor, b1);
     const real3 v2 = multiply_mat(cofactor, b2);
     const real3 v3 = multiply_mat(cofactor, b3);
     const real3 v0 = add(add(v1, v2), v3);
-    const real3 s1 = scale(add_scaled(multiply_mat(map, b1), v1, slope), inverse);
-    const real3 s2 = scale(add_scaled(multiply_mat(map, b2), v2, slope), inverse);
-    const real3 s3 = scale(add_scaled(multiply_mat(map, b3), v3, slope), inverse);
+    const real3 s1 = scale(add_scaled(multiply_mat(map, b1), v1, balance), inverse);
+    const real3 s2 = scale(add_scaled(multiply_mat(map, b2), v2, balance), inverse);
+    const real3 s3 = scale(add_scaled(multiply_mat(map, b3), v3, balance), inverse);
     const real3 s0 = add(add(s1, s2), s3);
     const real g_vv =
         (x0.w * dot3(v0, v0) + x1.w * dot3(v1, v1)) + (x2.w * dot3(v2, v2) + x3.w * dot3(v3, v3));

@@ -15,6 +15,8 @@ EnergySum::EnergySum(Model& model, Buffer<float4>& targets)
       partials_("energy.partials", kColumns * used_.size()) {
     vertices_ = make_vertices_part();
     if (model.springs) springs_ = make_part("springs.terms", model.springs->elements);
+    if (model.membranes) membranes_ = make_part("membranes.terms", model.membranes->elements);
+    if (model.tetrahedra) tetrahedra_ = make_part("tetrahedra.terms", model.tetrahedra->elements);
     if (model.hinges) hinges_ = make_part("hinges.terms", model.hinges->elements);
     place_strips();
 }
@@ -68,7 +70,8 @@ void EnergySum::place_strips() {
     }
     column_begin_[used_.size()] = static_cast<int>(used_.size()) * kColumns;
     terms_ = std::make_unique<Buffer<float>>("energy.terms", static_cast<std::size_t>(base.back()));
-    for (Part* part : {vertices_.get(), springs_.get(), hinges_.get()}) {
+    for (Part* part :
+         {vertices_.get(), springs_.get(), membranes_.get(), tetrahedra_.get(), hinges_.get()}) {
         if (part == nullptr) continue;
         for (const Segments& items : part->items) {
             for (int s = 0; s < items.strip_count; ++s) {
@@ -91,6 +94,13 @@ std::vector<Launch> EnergySum::launches(Buffer<float4>& positions) {
                                       elements.vertices(), model_.springs->material,
                                       springs_->slots, *terms_, elements.count()));
         }
+        const auto add_elastic = [&](auto kernel, auto& kind, Part& part) {
+            launches.push_back(launch(kernel, part.items[phase], positions,
+                                      kind.elements.vertices(), kind.shape, kind.material,
+                                      part.slots, *terms_, kind.elements.count()));
+        };
+        if (membranes_) add_elastic(kernels::membrane_terms, *model_.membranes, *membranes_);
+        if (tetrahedra_) add_elastic(kernels::tetrahedron_terms, *model_.tetrahedra, *tetrahedra_);
         if (hinges_) {
             Elements& elements = model_.hinges->elements;
             launches.push_back(launch(kernels::hinge_terms, hinges_->items[phase], positions,

@@ -41,7 +41,7 @@ private:
     Model& model_;
     Buffer<float4>& targets_;
     std::vector<int> used_;  ///< [strips] terms
-    std::unique_ptr<Part> vertices_, springs_, hinges_;
+    std::unique_ptr<Part> vertices_, springs_, membranes_, tetrahedra_, hinges_;
     std::unique_ptr<Buffer<float>> terms_;
     Buffer<int> columns_;       ///< [2 * kColumns * strips]
     Buffer<int> column_begin_;  ///< [strips + 1]

@@ -5,6 +5,8 @@ namespace weft {
 std::vector<Stencils> all_stencils(const Model& model) {
     std::vector<Stencils> kinds;
     if (model.springs) kinds.push_back(model.springs->elements.stencils());
+    if (model.membranes) kinds.push_back(model.membranes->elements.stencils());
+    if (model.tetrahedra) kinds.push_back(model.tetrahedra->elements.stencils());
     if (model.hinges) kinds.push_back(model.hinges->elements.stencils());
     return kinds;
 }
@@ -12,6 +14,8 @@ std::vector<Stencils> all_stencils(const Model& model) {
 Slopes::Slopes(const Model& model, VertexItems& items)
     : items_(items), sums_("slopes", 9 * static_cast<std::size_t>(items.count())) {
     if (model.springs) families_.push_back(make_spring_slopes(*model.springs, items));
+    if (model.membranes) families_.push_back(make_membrane_slopes(*model.membranes, items));
+    if (model.tetrahedra) families_.push_back(make_tetrahedron_slopes(*model.tetrahedra, items));
     if (model.hinges) families_.push_back(make_bending_slopes(*model.hinges, items));
 }
 

@@ -29,6 +29,10 @@ public:
 };
 
 std::unique_ptr<SlopeFamily> make_spring_slopes(const Springs& springs, const VertexItems& items);
+std::unique_ptr<SlopeFamily> make_membrane_slopes(const Membranes& membranes,
+                                                  const VertexItems& items);
+std::unique_ptr<SlopeFamily> make_tetrahedron_slopes(const Tetrahedra& tetrahedra,
+                                                     const VertexItems& items);
 std::unique_ptr<SlopeFamily> make_bending_slopes(const Hinges& hinges, const VertexItems& items);
 
 /// Gradient and Hessian block of every vertex, by one launch per family that the model has.

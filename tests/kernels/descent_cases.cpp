@@ -1,6 +1,8 @@
 #include "kernels/descent/gather_bending.h"
 #include "kernels/descent/gather_forces.h"
+#include "kernels/descent/gather_membranes.h"
 #include "kernels/descent/gather_springs.h"
+#include "kernels/descent/gather_tetrahedra.h"
 #include "kernels/descent/substep.h"
 #include "kernels/vbd/solve.h"
 #include "tests/kernels/kernel_case.h"
@@ -40,9 +42,9 @@ Buffer<int>& add_slices(KernelCase& c) {
 }
 
 /// Each item's neighbours; in degenerate cases the item's own vertex.
-Buffer<int>& add_others(KernelCase& c, const Buffer<int>& vertices) {
-    auto& others = c.add<int>("others", kRow * c.items);
-    for (int e = 0; e < kRow * c.items; ++e) {
+Buffer<int>& add_others(KernelCase& c, const Buffer<int>& vertices, int per_entry = 1) {
+    auto& others = c.add<int>("others", per_entry * kRow * c.items);
+    for (int e = 0; e < per_entry * kRow * c.items; ++e) {
         const bool self = c.flavour == Flavour::kDegenerate && e % 2 == 0;
         others[at(e)] =
             self ? vertices[at(e % c.items)] : c.items + c.random.integer(0, c.items - 1);
@@ -101,6 +103,27 @@ void bending_forces_case(KernelCase& c) {
                       others, weights, sums, c.items, c.items, c.items % 2);
 }
 
+/// Tetrahedra or membranes, with `others` other corners and `shape` numbers of their shape.
+template <class Kernel>
+void elastic_case(KernelCase& c, Kernel kernel, int others_per_entry, int shape_columns) {
+    auto& positions = add_positions(c);
+    auto& vertices = add_vertices(c);
+    auto& slices = add_slices(c);
+    auto& others = add_others(c, vertices, others_per_entry);
+    auto& shape = add_reals(c, "shape", shape_columns * kRow * c.items, -3.0f, 3.0f);
+    auto& material = add_reals(c, "material", 2 * kRow * c.items, 0.0f, 2.0f);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernel, c.segments, positions, vertices, slices, others, shape, material,
+                      sums, c.items, kRow * c.items, c.items, c.items % 2);
+}
+
+void tetrahedra_case(KernelCase& c) { elastic_case(c, kernels::gather_tetrahedra, 3, 9); }
+void membranes_case(KernelCase& c) { elastic_case(c, kernels::gather_membranes, 2, 4); }
+void tetrahedra_forces_case(KernelCase& c) {
+    elastic_case(c, kernels::gather_tetrahedra_forces, 3, 9);
+}
+void membrane_forces_case(KernelCase& c) { elastic_case(c, kernels::gather_membrane_forces, 2, 4); }
+
 void solve_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& targets = c.add<float4>("targets", 2 * c.items);
@@ -158,6 +181,10 @@ const bool added = add_case("gather_springs", springs_case) &&
                    add_case("gather_bending", bending_case) &&
                    add_case("gather_spring_forces", spring_forces_case) &&
                    add_case("gather_bending_forces", bending_forces_case) &&
+                   add_case("gather_tetrahedra", tetrahedra_case) &&
+                   add_case("gather_membranes", membranes_case) &&
+                   add_case("gather_tetrahedra_forces", tetrahedra_forces_case) &&
+                   add_case("gather_membrane_forces", membrane_forces_case) &&
                    add_case("solve_vertices", solve_case) &&
                    add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
                    add_case("copy_positions", copy_case) && add_case("push_targets", push_case);

@@ -56,6 +56,23 @@ void hinge_terms_case(KernelCase& c) {
                       c.items);
 }
 
+template <class Kernel>
+void elastic_terms_case(KernelCase& c, Kernel kernel, int arity, int shape_columns) {
+    auto& positions = add_points(c, "positions", 2 * c.items);
+    auto& corners = add_corners(c, arity);
+    auto& shape = add_reals(c, "shape", shape_columns * c.items, -3.0f, 3.0f);
+    auto& material = add_reals(c, "material", 2 * c.items, 0.1f, 2.0f);
+    auto& slots = add_slots(c);
+    auto& terms = c.add<float>("terms", c.items + 9);
+    c.launch =
+        launch(kernel, c.segments, positions, corners, shape, material, slots, terms, c.items);
+}
+
+void membrane_terms_case(KernelCase& c) { elastic_terms_case(c, kernels::membrane_terms, 3, 4); }
+void tetrahedron_terms_case(KernelCase& c) {
+    elastic_terms_case(c, kernels::tetrahedron_terms, 4, 9);
+}
+
 void inertia_terms_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& targets = add_points(c, "targets", c.items);
@@ -114,6 +131,8 @@ void step_case(KernelCase& c) {
 
 const bool added =
     add_case("spring_terms", spring_terms_case) && add_case("hinge_terms", hinge_terms_case) &&
+    add_case("membrane_terms", membrane_terms_case) &&
+    add_case("tetrahedron_terms", tetrahedron_terms_case) &&
     add_case("inertia_terms", inertia_terms_case) && add_case("add_terms", add_terms_case) &&
     add_case("decide_step", decide_case) && add_case("keep_or_revert", revert_case) &&
     add_case("step_preconditioned", step_case);

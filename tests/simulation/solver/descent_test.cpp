@@ -22,6 +22,31 @@ bend = { stiffness = 1.0e-2 }
 pins = { corners = ["x-z-", "x+z-"] }
 )";
 
+/// A clamped beam of a soft solid, and a membrane that is tied to it.
+const std::string kBeam = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+[[cloth]]
+name = "film"
+grid = { size = [0.8, 0.8], resolution = [9, 9] }
+translate = [0.0, 0.15, 0.4]
+density = 0.3
+membrane = { young = 1.0e5, poisson = 0.3, thickness = 1.0e-3 }
+[[solid]]
+name = "beam"
+grid = { size = [1.0, 0.3, 0.3], resolution = [11, 4, 4] }
+density = 500.0
+young = 2.0e4
+poisson = 0.3
+pins = { faces = ["x-"] }
+[[attachment]]
+a = "film"
+b = "beam"
+corners = ["x-z-", "x+z-"]
+stiffness = 100.0
+)";
+
 /// One substep of the sheet, stretched, bent and sheared at its start.
 class OneStep {
 public:
@@ -55,17 +80,18 @@ private:
     std::unique_ptr<IncrementalPotential> potential_;
 };
 
-class Descent : public testing::TestWithParam<Method> {};
+class Descent : public testing::TestWithParam<std::tuple<Method, const std::string*>> {};
 
 TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
-    OneStep reference(GetParam(), 1);
+    const auto [method, scene] = GetParam();
+    OneStep reference(method, 1, *scene);
     const Minimum minimum = reference.minimum();
     ASSERT_LT(minimum.certificate.relative_gap, kSolvedGap);
     const double whole = minimum.start_energy - minimum.energy;
     ASSERT_GT(whole, 0.1 * minimum.start_energy) << "there is something to do";
     double last = 1.0;
     for (const int iterations : {1, 2, 4, 8, 16, 32, 64, 128, 256, 512}) {
-        const double energy = OneStep(GetParam(), iterations).energy_after_run();
+        const double energy = OneStep(method, iterations, *scene).energy_after_run();
         const double error = (energy - minimum.energy) / whole;
         EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
         EXPECT_LT(error, last + 1e-6) << iterations << " iterations";
@@ -75,11 +101,15 @@ TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
     EXPECT_LT(last, 1e-3);
 }
 
-std::string name_of_method(const testing::TestParamInfo<Method>& info) {
-    return std::string(name_of(info.param));
+std::string name_of_method(
+    const testing::TestParamInfo<std::tuple<Method, const std::string*>>& info) {
+    const auto [method, scene] = info.param;
+    return std::string(name_of(method)) + (scene == &kSheet ? "Sheet" : "Beam");
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Descent, testing::Values(Method::kVbd, Method::kJpgd),
+INSTANTIATE_TEST_SUITE_P(Methods, Descent,
+                         testing::Combine(testing::Values(Method::kVbd, Method::kJpgd),
+                                          testing::Values(&kSheet, &kBeam)),
                          name_of_method);
 
 }  // namespace

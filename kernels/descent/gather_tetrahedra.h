@@ -1,0 +1,69 @@
+#ifndef WEFT_KERNELS_DESCENT_GATHER_TETRAHEDRA_H
+#define WEFT_KERNELS_DESCENT_GATHER_TETRAHEDRA_H
+
+#include "kernels/columns.h"
+#include "kernels/descent/gather_forces.h"
+#include "kernels/descent/rows.h"
+#include "kernels/energies/tetrahedron.h"
+
+WEFT_KERNELS_BEGIN
+
+/// Adds the tetrahedra's part of each vertex' slope. Parameters as in gather_springs, and
+/// others    [3 * entries] column-major: the tetrahedron's other vertices
+/// shape     [9 * entries] column-major: their b [1/m]; the vertex' own balances them
+/// material  [2 * entries] column-major: mu, lambda, times the rest volume [J]
+WEFT_KERNEL(gather_tetrahedra, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* vertices,
+            WEFT_GLOBAL const int* slices, WEFT_GLOBAL const int* others,
+            WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,
+            WEFT_GLOBAL float* sums, int item_count, int entry_count, int stride, int fresh) {
+    slope s = fresh ? no_slope() : load_slope(sums, i, item_count);
+    const real3 x = xyz(gather4(positions, load_index(vertices, i)));
+    const int length = row_length(slices, i);
+    for (int k = 0; k < length; ++k) {
+        const item entry = row_entry(slices, i, stride, k);
+        const real3 x1 = xyz(gather4(positions, load_index(others, entry)));
+        const real3 x2 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 1))));
+        const real3 x3 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 2))));
+        const real3 b1 = load3(shape, entry, entry_count, 0);
+        const real3 b2 = load3(shape, entry, entry_count, 3);
+        const real3 b3 = load3(shape, entry, entry_count, 6);
+        const tetrahedron t =
+            make_tetrahedron(tetrahedron_map(x, x1, x2, x3, b1, b2, b3), load(material, entry),
+                             load(material, column(entry, entry_count, 1)));
+        const real3 own = scale(add(add(b1, b2), b3), splat(-1.0f));
+        s.gradient = add(s.gradient, tetrahedron_gradient(t, own));
+        s.hessian = add_sym(s.hessian, tetrahedron_hessian(t, own));
+    }
+    store_slope(sums, i, item_count, s);
+}
+
+/// Only the gradients: the Hessian columns of the sums are left as they are.
+WEFT_KERNEL(gather_tetrahedra_forces, WEFT_GLOBAL const float4* positions,
+            WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const int* slices,
+            WEFT_GLOBAL const int* others, WEFT_GLOBAL const float* shape,
+            WEFT_GLOBAL const float* material, WEFT_GLOBAL float* sums, int item_count,
+            int entry_count, int stride, int fresh) {
+    real3 gradient = make3(splat(0.0f), splat(0.0f), splat(0.0f));
+    if (!fresh) gradient = load_gradient(sums, i, item_count);
+    const real3 x = xyz(gather4(positions, load_index(vertices, i)));
+    const int length = row_length(slices, i);
+    for (int k = 0; k < length; ++k) {
+        const item entry = row_entry(slices, i, stride, k);
+        const real3 x1 = xyz(gather4(positions, load_index(others, entry)));
+        const real3 x2 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 1))));
+        const real3 x3 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 2))));
+        const real3 b1 = load3(shape, entry, entry_count, 0);
+        const real3 b2 = load3(shape, entry, entry_count, 3);
+        const real3 b3 = load3(shape, entry, entry_count, 6);
+        const tetrahedron t =
+            make_tetrahedron(tetrahedron_map(x, x1, x2, x3, b1, b2, b3), load(material, entry),
+                             load(material, column(entry, entry_count, 1)));
+        const real3 own = scale(add(add(b1, b2), b3), splat(-1.0f));
+        gradient = add(gradient, tetrahedron_gradient(t, own));
+    }
+    store_gradient(sums, i, item_count, gradient);
+}
+
+WEFT_KERNELS_END
+
+#endif
