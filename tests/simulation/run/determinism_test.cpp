@@ -29,10 +29,10 @@ const TestScene kScenes[] = {
     {"Solids", kSolids, Method::kXpbd, "af1bde7223d41abf5c09a61a217b4ee0"},
     {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
     {"VbdEverything", kEverything, Method::kVbd, "b193d13349f46ab2fbbb62ed54af3a9d"},
-    {"VbdSolids", kSolids, Method::kVbd, ""},
+    {"VbdSolids", kSolids, Method::kVbd, "806f7b6b2ccfcb25eb23bcbb08da7cf3"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"JpgdEverything", kEverything, Method::kJpgd, "8c506120e1bf06accd014070196bdaf6"},
-    {"JpgdSolids", kSolids, Method::kJpgd, ""},
+    {"JpgdSolids", kSolids, Method::kJpgd, "e339e03a1a91c4e4a6065882a1dda2b3"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "429c832900be0e6c9e774654dc7fb80c"},
 };
 

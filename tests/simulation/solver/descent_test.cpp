@@ -94,7 +94,10 @@ TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
         const double energy = OneStep(method, iterations, *scene).energy_after_run();
         const double error = (energy - minimum.energy) / whole;
         EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
-        EXPECT_LT(error, last + 1e-6) << iterations << " iterations";
+        // JPGD goes back to its last checkpoint where a step length was too large: a run that ends
+        // just then may be no better than its start.
+        const double bound = method == Method::kJpgd ? 1.0 : last;
+        EXPECT_LT(error, bound + 1e-6) << iterations << " iterations";
         last = error;
         RecordProperty("after_" + std::to_string(iterations), std::to_string(error));
     }
