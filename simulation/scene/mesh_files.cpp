@@ -13,10 +13,12 @@ namespace weft {
 
 std::vector<BodyMesh> mesh_files(const Scene& scene) {
     std::vector<BodyMesh> list;
-    for (const Cloth& cloth : scene.cloths) {
-        const auto* file = std::get_if<MeshFile>(&cloth.shape);
-        if (file != nullptr) list.push_back({"cloth." + cloth.name, file->path});
-    }
+    const auto add = [&](const std::string& body, const Shape& shape) {
+        const auto* file = std::get_if<MeshFile>(&shape);
+        if (file != nullptr) list.push_back({body, file->path});
+    };
+    for (const Cloth& cloth : scene.cloths) add("cloth." + cloth.name, cloth.shape);
+    for (const Solid& solid : scene.solids) add("solid." + solid.name, solid.shape);
     return list;
 }
 
