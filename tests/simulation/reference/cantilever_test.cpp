@@ -12,7 +12,9 @@ namespace {
 constexpr double kLength = 1.0;
 constexpr double kHeight = 0.2;
 constexpr double kYoung = 4e8;
-constexpr double kPoisson = 0.3;
+// The clamp also hinders the beam from growing thinner, which beam theory does not know: at 0.3 the
+// beam is 3 % stiffer than the theory, without lateral contraction it is not.
+constexpr double kPoisson = 0.0;
 constexpr double kDensity = 1000.0;
 constexpr double kGravity = 9.81;
 
@@ -27,7 +29,7 @@ dt = 1.0
 grid = { size = [1.0, 0.2, 0.2], resolution = [2, 2, 2] }
 density = 1000.0
 young = 4.0e8
-poisson = 0.3
+poisson = 0.0
 pins = { faces = ["x-"] }
 )",
                               "test.toml");
