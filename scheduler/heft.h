@@ -17,7 +17,7 @@ public:
 
     explicit Heft(Rank rank = Rank::kUpward) : rule_(rank) {}
 
-    std::string_view name() const override { return "heft"; }
+    std::string_view name() const override { return rule_ == Rank::kUpward ? "heft" : "heft-gs"; }
     void schedule(const TaskGraph& graph, Plan& plan) override;
 
 private:

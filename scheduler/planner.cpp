@@ -25,11 +25,18 @@ std::unique_ptr<Planner> make() {
     return std::make_unique<P>();
 }
 
+std::unique_ptr<Planner> make_heft_gs() { return std::make_unique<Heft>(Heft::Rank::kGaussSeidel); }
+
 constexpr std::array kPlanners{
-    Entry{"heft", make<Heft>},        Entry{"peft", make<Peft>},
-    Entry{"cpop", make<Cpop>},        Entry{"lookahead", make<Lookahead>},
-    Entry{"hps", make<Hps>},          Entry{"single", make<Single>},
-    Entry{"in-order", make<InOrder>}, Entry{"portfolio", make<Portfolio>},
+    Entry{"heft", make<Heft>},
+    Entry{"peft", make<Peft>},
+    Entry{"cpop", make<Cpop>},
+    Entry{"lookahead", make<Lookahead>},
+    Entry{"hps", make<Hps>},
+    Entry{"single", make<Single>},
+    Entry{"heft-gs", make_heft_gs},
+    Entry{"in-order", make<InOrder>},
+    Entry{"portfolio", make<Portfolio>},
     Entry{"optimal", make<Optimal>},
 };
 

@@ -37,7 +37,8 @@ private:
     LowerBounds bounds_;
 };
 
-/// heft, peft, cpop, lookahead, hps, single, in-order, portfolio, optimal.
+/// heft, peft, cpop, lookahead, hps, single, heft-gs (HEFT with the paper's Gauss-Seidel rank),
+/// in-order, portfolio, optimal.
 std::span<const std::string_view> planner_names();
 
 /// A planner with its default settings; nullptr for an unknown name.

@@ -263,9 +263,9 @@ FrameRecord Simulation::record(const FramePlan& plan, const RunTimes& times) con
     frame.sim_time = frame_time() + model_->scene.dt;
     frame.start = times.start - plan.plan_time;
     frame.end = times.end;
-    frame.planned_makespan = plan.substep_time * substeps;
+    frame.planned_makespan = plan.substep_time() * substeps;
     frame.measured_makespan = times.end - times.start;
-    frame.lower_bound = plan.plan.lower_bound() * substeps;
+    frame.lower_bound = plan.lower_bound() * substeps;
     frame.plan_time = plan.plan_time;
     plan_log_->record(plan, planner_->timing().costs(), active_, frame);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 #include "apps/weft/json_file.h"
@@ -71,7 +73,7 @@ private:
             json_.fail(field, fmt::format("expected {{\"name\": ..., \"cost\": [...]}}, not {}",
                                           JsonFile::shown(task)));
         }
-        json_.check_keys(task, {"name", "cost"}, field + ".");
+        json_.check_keys(task, {"name", "cost", "kind", "iteration"}, field + ".");
         const std::string own =
             json_.name(json_.member(task, "name", field + "."), field + ".name");
         if (ids_.contains(own)) {
@@ -95,8 +97,22 @@ private:
         if (std::ranges::all_of(cost, [](double c) { return c == scheduler::kCannotRun; })) {
             json_.fail(cost_field, fmt::format("no processor can run task '{}'", own));
         }
-        ids_[own] = file_.graph.add_task(cost, {.name = own});
+        ids_[own] = file_.graph.add_task(cost, {.kind = trait(task, "kind", field),
+                                                .iteration = trait(task, "iteration", field),
+                                                .name = own});
         names_.push_back(own);
+    }
+
+    /// A whole number that a task may have; -1 without.
+    int trait(const json& task, const std::string& key, const std::string& field) const {
+        if (!task.contains(key)) return -1;
+        const json& value = task[key];
+        constexpr int kLargest = std::numeric_limits<int>::max();
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() > kLargest) {
+            json_.fail(field + "." + key,
+                       fmt::format("expected a whole number >= 0, not {}", JsonFile::shown(value)));
+        }
+        return value.get<int>();
     }
 
     void read_edges(const json& list) {

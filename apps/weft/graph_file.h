@@ -20,8 +20,9 @@ struct TimeUnit {
 ///     "edges": [ ["a", "b", 18] ],
 ///     "latency": 0, "bandwidth": 1 }
 ///
-/// latency and bandwidth may be left out; each is one number, or one row per processor that data
-/// come from with one number per processor that they go to.
+/// A task may also have a "kind" and an "iteration", whole numbers from 0, for the paper's
+/// adaptations (adaptations.h). latency and bandwidth may be left out; each is one number, or one
+/// row per processor that data come from with one number per processor that they go to.
 struct GraphFile {
     std::vector<std::string> processors;
     scheduler::TaskGraph graph{1};  ///< sealed

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/weft/adaptations.h"
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/cost_file.h"
@@ -39,6 +40,7 @@ struct PlanOptions {
     double time_limit = 10.0;  // s
     bool compare = false;
     bool json = false;
+    Adaptations adaptations;
     // Of traces only.
     std::optional<std::uint32_t> frame;
     std::optional<std::string> costs;
@@ -188,7 +190,8 @@ void print_comparison(const GraphFile& file, const PlanOptions& options, const T
 }
 
 /// trace: null for a graph that is none's.
-void plan_graph(const GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
+void plan_graph(GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
+    adapt(file.graph, options.adaptations);
     if (trace != nullptr && !options.json) print_frame(*trace);
     if (options.compare) return print_comparison(file, options, trace);
     const TimedPlan result = make_plan(file, options.algorithm, options.time_limit);
@@ -223,15 +226,34 @@ void refuse_trace_options(const PlanOptions& options) {
 void plan_file(const PlanOptions& options) {
     if (!is_trace(options.graph)) {
         refuse_trace_options(options);
-        return plan_graph(read_graph_file(options.graph), options, nullptr);
+        GraphFile file = read_graph_file(options.graph);
+        return plan_graph(file, options, nullptr);
     }
-    const TraceGraph trace = read_trace_graph(
+    TraceGraph trace = read_trace_graph(
         {options.graph, options.frame, options.costs, options.strips, options.pinned});
     if (options.print_costs) {
         std::cout << to_json(trace.costs, trace.kinds).dump(2) << '\n';
         return;
     }
     plan_graph(trace.file, options, &trace);
+}
+
+void add_adaptation_options(CLI::App& command, Adaptations& adaptations) {
+    const std::string group = "Adaptations of the paper, to tasks of a kind and of an iteration";
+    command
+        .add_option("--merge", adaptations.merge,
+                    "merge consecutive tasks of one kind and iteration until their average cost is "
+                    "TIME; in a trace, seconds")
+        ->type_name("TIME")
+        ->check(CLI::PositiveNumber)
+        ->group(group);
+    command
+        .add_option("--open-iterations", adaptations.open_iterations,
+                    "an iteration begins when all but the last N - 1 before it have ended; 1 is a "
+                    "barrier after each, the paper has 2; default: as the tasks depend")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000'000))
+        ->group(group);
 }
 
 }  // namespace
@@ -245,12 +267,15 @@ void add_plan_command(CLI::App& app) {
         "  {\"processors\": [\"cpu\", \"gpu\"],\n"
         "   \"tasks\": [{\"name\": \"a\", \"cost\": [14, 16]}, {\"name\": \"b\", \"cost\": [13, "
         "null]}],\n"
-        "   \"edges\": [[\"a\", \"b\", 18]]}\n\n"
+        "   \"edges\": [[\"a\", \"b\", 18]]}\n"
+        "A task may have a \"kind\" and an \"iteration\" (whole numbers) for --merge,\n"
+        "--open-iterations and heft-gs.\n\n"
         "A trace (.h5) gives one substep of a recorded frame, with the costs that it was planned "
         "with\n"
         "or with those of another machine; docs/traces.md describes the file of --costs.\n\n"
         "Examples:\n"
         "  weft plan graph.json --compare\n"
+        "  weft plan graph.json --algorithm heft-gs --open-iterations 2\n"
         "  weft plan out/flag/trace.h5 --frame 20 --algorithm in-order --pinned\n"
         "  weft plan out/flag/trace.h5 --frame 20 --print-costs >costs.json   # edit, then:\n"
         "  weft plan out/flag/trace.h5 --frame 20 --costs costs.json --strips auto --pinned");
@@ -273,6 +298,7 @@ void add_plan_command(CLI::App& app) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON document");
+    add_adaptation_options(*command, options->adaptations);
     const std::string group = "Traces";
     command->add_option("--frame", options->frame, "number of the frame; default: the last one")
         ->type_name("N")
@@ -295,7 +321,13 @@ void add_plan_command(CLI::App& app) {
         ->add_flag("--print-costs", options->print_costs,
                    "print the costs as a file for --costs, and stop")
         ->group(group);
-    command->callback([options] { plan_file(*options); });
+    command->callback([options] {
+        try {
+            plan_file(*options);
+        } catch (const scheduler::GraphError& error) {  // what a planner or adaptation refuses
+            throw UserError(fmt::format("{}: {}", options->graph, error.what()));
+        }
+    });
 }
 
 }  // namespace weft

@@ -184,8 +184,7 @@ void FramePlanner::fill(const Division& division) {
     current_.step = &c.step;
     current_.graph = &c.pinned;
     current_.division = division;
-    const double correction = choice_.correction(alternative_of(division));
-    current_.substep_time = current_.plan.makespan * correction;
+    current_.slowdown = choice_.correction(alternative_of(division)) * pace_();
 }
 
 const FramePlan& FramePlanner::next() {
@@ -193,6 +192,7 @@ const FramePlan& FramePlanner::next() {
     ++frame_;
     if (candidates_.size() > kMostCandidates) candidates_.clear();
     const Division division = choose();
+    learn_pace();
     fill(division);
     current_.plan_time = now() - start;
     return current_;
@@ -227,8 +227,19 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
     last_frame_time_ = times.end - times.start;
     probes_.end_frame(last_frame_time_);
     for (const int d : plan.division.devices()) probes_.used(static_cast<std::uint32_t>(d));
+    last_division_ = plan.division;
+    last_instances_ = instances;
     choice_.measured(alternative_of(plan.division),
                      makespan_of(plan.division, task_times) * instances, last_frame_time_);
+}
+
+/// By the costs of now, which may have learnt from the last frame already. The pace concerns all
+/// plans alike, so it decides nothing. Measured on a shared host: without it the median error of
+/// planned times was 7 to 22 %, of the last frame as a forecast 4 to 5 %.
+void FramePlanner::learn_pace() {
+    if (last_instances_ == 0) return;
+    const double correction = choice_.correction(alternative_of(last_division_));
+    pace_.frame(predict(last_division_) * correction * last_instances_, last_frame_time_);
 }
 
 /// What the plan would have been predicted to take had the costs of its tasks been known. Compared

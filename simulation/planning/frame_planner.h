@@ -7,6 +7,7 @@
 
 #include "scheduler/heft.h"
 #include "scheduler/in_order.h"
+#include "scheduler/pace.h"
 #include "scheduler/plan_choice.h"
 #include "scheduler/probing.h"
 #include "simulation/planning/division.h"
@@ -22,10 +23,14 @@ struct FramePlan {
     Division division;
     scheduler::Plan plan;                         ///< of one substep [s]
     const scheduler::TaskGraph* graph = nullptr;  ///< that it was made from; the planner's
-    double substep_time =
-        0.0;  ///< planned [s]: the plan's makespan, corrected as earlier plans were off
+    /// How much longer than the costs of its tasks say it is expected to take, as learnt.
+    double slowdown = 1.0;
     double plan_time = 0.0;   ///< what planning took [s]
     bool calibrates = false;  ///< made to learn about devices, not to be fast
+
+    /// What a substep is expected to take [s], and what no plan can be expected to undercut.
+    double substep_time() const { return plan.makespan * slowdown; }
+    double lower_bound() const { return plan.lower_bound() * slowdown; }
 };
 
 /// Plans every frame anew: divides the strips among the devices and orders the tasks that follow,
@@ -82,6 +87,7 @@ private:
     std::optional<Division> probe(const Division& chosen);
     Division with_one_strip_for(int device, const Division& chosen) const;
     void fill(const Division& division);
+    void learn_pace();
     double makespan_of(const Division& division, const std::vector<double>& task_times);
 
     Solver& solver_;
@@ -95,6 +101,9 @@ private:
     Division mixture_;  ///< the best known one of all devices
     std::map<Division, std::unique_ptr<Candidate>> candidates_;
     FramePlan current_;
+    scheduler::Pace pace_;
+    Division last_division_;        ///< of the last frame
+    int last_instances_ = 0;        ///< substeps of it; 0: there was none
     double last_frame_time_ = 0.0;  ///< [s]
     long frame_ = 0;
     // Working memory.

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+
 #include "graphs.h"
 #include "scheduler/grouping.h"
 #include "scheduler/heft.h"
+#include "scheduler/iteration_window.h"
 #include "scheduler/merging.h"
 #include "scheduler/ranks.h"
 #include "scheduler/replan.h"
@@ -105,6 +109,87 @@ TaskGraph two_chains(int iterations) {
     }
     graph.seal();
     return graph;
+}
+
+/// How many iterations have begun and not ended, at most, by a plan.
+int most_open(const TaskGraph& graph, const Plan& plan) {
+    struct Span {
+        double begin = kCannotRun, end = 0.0;
+    };
+    std::map<int, Span> spans;
+    for (TaskId t = 0; t < graph.task_count(); ++t) {
+        if (graph.iteration(t) < 0) continue;
+        Span& span = spans[graph.iteration(t)];
+        span.begin = std::min(span.begin, plan.placements[t].start);
+        span.end = std::max(span.end, plan.placements[t].end);
+    }
+    int most = 0;
+    for (const auto& [iteration, span] : spans) {
+        most =
+            std::max(most, static_cast<int>(std::ranges::count_if(spans, [&](const auto& other) {
+                         return other.second.begin <= span.begin && span.begin < other.second.end;
+                     })));
+    }
+    return most;
+}
+
+TEST(IterationWindow, KeepsAtMostSoManyOpen) {
+    const TaskGraph graph = two_chains(8);
+    Plan plan;
+    Heft heft;
+    heft.plan(graph, plan);
+    ASSERT_GT(most_open(graph, plan), 3) << "the short chain runs ahead";
+    const double unlimited = plan.makespan;
+
+    IterationWindow window;
+    TaskGraph limited;
+    double last = kCannotRun;
+    for (const int open : {1, 2, 3}) {
+        window.limit(graph, open, limited);
+        ASSERT_EQ(limited.task_count(), graph.task_count());
+        heft.plan(limited, plan);
+        EXPECT_EQ(complaint(limited, plan), "");
+        EXPECT_EQ(complaint(graph, plan), "");
+        EXPECT_LE(most_open(graph, plan), open);
+        EXPECT_LE(plan.makespan, last) << "a larger window is never slower here";
+        EXPECT_GE(plan.makespan, unlimited);
+        last = plan.makespan;
+    }
+    window.limit(graph, 8, limited);
+    EXPECT_EQ(limited.edge_count(), graph.edge_count()) << "no iteration is so far away";
+}
+
+TEST(IterationWindow, WaitsForAllThatWereOpenTogether) {
+    // Tasks of iterations 0, 1, 2, 4 that depend on nothing. With two open, 4 waits for 1 and 2,
+    // since 2 did not wait for 1.
+    TaskGraph graph(1);
+    for (const int iteration : {0, 1, 2, 4}) {
+        graph.add_task(std::vector{1.0}, {.iteration = iteration});
+    }
+    graph.add_task(std::vector{1.0});  // of no iteration
+    graph.seal();
+    TaskGraph limited;
+    IterationWindow().limit(graph, 2, limited);
+    const auto waits_for = [&](TaskId task) {
+        std::vector<TaskId> list;
+        for (const Arc& arc : limited.predecessors(task)) list.push_back(arc.task);
+        std::ranges::sort(list);
+        return list;
+    };
+    EXPECT_EQ(waits_for(1), std::vector<TaskId>{});
+    EXPECT_EQ(waits_for(2), (std::vector<TaskId>{0}));
+    EXPECT_EQ(waits_for(3), (std::vector<TaskId>{1, 2}));
+    EXPECT_EQ(waits_for(4), std::vector<TaskId>{});
+}
+
+TEST(IterationWindow, RefusesTasksThatWouldWaitForEachOther) {
+    TaskGraph graph(1);
+    graph.add_task(std::vector{1.0}, {.iteration = 0});
+    graph.add_task(std::vector{1.0}, {.iteration = 1});
+    graph.add_edge(1, 0, 0.0);
+    graph.seal();
+    TaskGraph limited;
+    EXPECT_THROW(IterationWindow().limit(graph, 1, limited), GraphError);
 }
 
 TEST(GaussSeidelRank, LaterIterationsHaveSmallerRanks) {

@@ -51,10 +51,44 @@ JSON
 sed -i 's/"latency": 3/"latency": [[0, 5], [3, 0]]/' links.json
 "$WEFT" plan links.json --json | grep -q '"makespan": 9.0,' || fail "latency per pair"
 
+# Figure 3 of the paper: 8 tasks of 2 on the CPU, 1 on the GPU, 2.5 to change; merged by four.
+row='{"name": "b0", "cost": [2, 1], "kind": 0, "iteration": 0}'
+edges='["start", "b0", 0]'
+for i in 1 2 3 4 5 6 7; do
+    row="$row, {\"name\": \"b$i\", \"cost\": [2, 1], \"kind\": 0, \"iteration\": $((i / 4))}"
+    edges="$edges, [\"b$((i - 1))\", \"b$i\", 0]"
+done
+cat >figure3.json <<JSON
+{"processors": ["cpu", "gpu"], "latency": 2.5,
+ "tasks": [{"name": "start", "cost": [0, null]}, $row], "edges": [$edges]}
+JSON
+"$WEFT" plan figure3.json --algorithm heft --json | grep -q '"makespan": 16.0,' || fail "figure 3"
+"$WEFT" plan figure3.json --algorithm heft --merge 6 --json >out.json || fail "--merge: code $?"
+grep -q '"makespan": 10.5,' out.json || fail "--merge: $(cat out.json)"
+"$WEFT" plan figure3.json --compare --open-iterations 1 >out.txt || fail "--open-iterations"
+grep -q '^heft-gs ' out.txt || fail "heft-gs: $(cat out.txt)"
+"$WEFT" plan figure3.json --open-iterations 0 >out.txt 2>&1 && fail "--open-iterations 0"
+
+# Three tasks of 1 on two processors, without any edge; a barrier after each iteration.
+free='{"name": "a", "cost": [1, 1], "iteration": 0}, {"name": "b", "cost": [1, 1], "iteration": 1},
+      {"name": "c", "cost": [1, 1], "iteration": 2}'
+echo "{\"processors\": [\"p\", \"q\"], \"tasks\": [$free]}" >free.json
+for limit in 1:3.0 2:2.0 3:2.0; do
+    "$WEFT" plan free.json --algorithm optimal --open-iterations "${limit%:*}" --json >out.json
+    grep -q "\"makespan\": ${limit#*:}," out.json || fail "open $limit: $(cat out.json)"
+done
+
 "$WEFT" plan "$data/topcuoglu-2002.json" --compare >compare.txt || fail "--compare"
 grep -Eq '^optimal +73 +0.0 %.*optimal$' compare.txt || fail "table: $(cat compare.txt)"
 "$WEFT" plan "$data/topcuoglu-2002.json" | grep -q '^p3 |n1=' || fail "Gantt chart"
 
+expect_error "graph.json: tasks[0].iteration: expected a whole number >= 0, not -1" \
+    "$(graph '{"name": "a", "cost": [1, 2], "iteration": -1}' '')"
+back='{"name": "a", "cost": [1, 2], "iteration": 1}, {"name": "b", "cost": [1, 2], "iteration": 0}'
+expect_error 'graph.json: a task depends on a task of a later iteration' \
+    "$(graph "$back" '["a", "b", 0]')" --algorithm heft-gs
+expect_error 'graph.json: the tasks form a cycle: a -> b -> a' \
+    "$(graph "$back" '["a", "b", 0]')" --open-iterations 1
 expect_error 'graph.json: tasks: the graph is empty' "$(graph '' '')"
 expect_error 'graph.json: edges: the tasks form a cycle: a -> b -> a' \
     "$(graph "$task, {\"name\": \"b\", \"cost\": [1, 1]}" '["a", "b", 1], ["b", "a", 1]')"

@@ -52,7 +52,7 @@ public:
     Frame advance() {
         const FramePlan& plan = planner.next();
         const RunTimes times = machine.run(plan, kSubsteps);
-        const Frame frame{plan.division, plan.substep_time * kSubsteps, times.end - times.start,
+        const Frame frame{plan.division, plan.substep_time() * kSubsteps, times.end - times.start,
                           plan.plan_time};
         planner.learn(plan, times, kSubsteps);
         return frame;
@@ -106,6 +106,23 @@ TEST(FramePlanner, PlannedIsMeasuredWhereTimesAreFreeOfNoise) {
         for (int i = 0; i < 10; ++i) {
             const auto frame = p.advance();
             EXPECT_NEAR(frame.planned / frame.measured, 1.0, 0.01);
+        }
+    }
+}
+
+TEST(FramePlanner, KnowsTheMachinesPaceAfterOneFrame) {
+    Planned p(60, 100, {{3e-6, 12e-9}, {8e-6, 17e-9}}, 40e-6);
+    const Division division = p.advance(20).division;
+    for (const double factor : {1.3, 1.0 / 1.3, 0.8}) {  // slower, as before, faster
+        for (VirtualMachine::Speed& speed : p.machine.speeds) {
+            speed.fixed *= factor;
+            speed.per_item *= factor;
+        }
+        p.advance();
+        for (int i = 0; i < 6; ++i) {
+            const auto frame = p.advance();
+            EXPECT_NEAR(frame.planned / frame.measured, 1.0, 0.05) << factor << ", frame " << i;
+            EXPECT_EQ(frame.division, division) << "a pace that all share changes no plan";
         }
     }
 }
