@@ -1,34 +1,11 @@
 #include <fmt/format.h>
 
 #include "apps/weft/canvas.h"
+#include "simulation/output/xml_text.h"
 
 namespace weft {
 
 namespace {
-
-/// Text between tags or quotes. Control characters, which XML cannot hold, become blanks.
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return result;
-}
 
 std::string hex(Colour c) {
     return fmt::format("#{:02x}{:02x}{:02x}", int{c.red}, int{c.green}, int{c.blue});
@@ -56,7 +33,7 @@ public:
     void rectangle(Point corner, double width, double height, Colour fill,
                    const std::string& note) override {
         const std::string title =
-            note.empty() ? "/>" : fmt::format("><title>{}</title></rect>", escaped(note));
+            note.empty() ? "/>" : fmt::format("><title>{}</title></rect>", xml_text(note));
         text_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"{}\n",
                              number(corner.x), number(corner.y), number(width), number(height),
                              hex(fill), title);
@@ -82,7 +59,7 @@ public:
         text_ += fmt::format(
             "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
             number(position.x), number(position.y), number(size),
-            kAnchors[static_cast<int>(anchor)], hex(colour), escaped(text));
+            kAnchors[static_cast<int>(anchor)], hex(colour), xml_text(text));
     }
 
     std::string finish() override { return std::move(text_) + "</svg>\n"; }

@@ -7,6 +7,30 @@
 
 WEFT_KERNELS_BEGIN
 
+/// An entry of a vertex' row.
+typedef struct {
+    membrane element;
+    real2 own;  ///< b of the vertex [1/m]
+} membrane_entry;
+
+/// x  the vertex [m]; the tables as in gather_membranes
+WEFT_INLINE membrane_entry load_membrane(WEFT_GLOBAL const float4* positions,
+                                         WEFT_GLOBAL const int* others,
+                                         WEFT_GLOBAL const float* shape,
+                                         WEFT_GLOBAL const float* material, real3 x, item entry,
+                                         int entry_count) {
+    const real3 x1 = xyz(gather4(positions, load_index(others, entry)));
+    const real3 x2 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 1))));
+    const real2 b1 = make2(load(shape, entry), load(shape, column(entry, entry_count, 1)));
+    const real2 b2 = make2(load(shape, column(entry, entry_count, 2)),
+                           load(shape, column(entry, entry_count, 3)));
+    membrane_entry e;
+    e.element = make_membrane(x, x1, x2, b1, b2, load(material, entry),
+                              load(material, column(entry, entry_count, 1)));
+    e.own = make2(-(b1.u + b2.u), -(b1.v + b2.v));
+    return e;
+}
+
 /// Adds the membranes' part of each vertex' slope. Parameters as in gather_springs, and
 /// others    [2 * entries] column-major: the triangle's other vertices
 /// shape     [4 * entries] column-major: their b [1/m]; the vertex' own balances them
@@ -20,16 +44,10 @@ WEFT_KERNEL(gather_membranes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL c
     const int length = row_length(slices, i);
     for (int k = 0; k < length; ++k) {
         const item entry = row_entry(slices, i, stride, k);
-        const real3 x1 = xyz(gather4(positions, load_index(others, entry)));
-        const real3 x2 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 1))));
-        const real2 b1 = make2(load(shape, entry), load(shape, column(entry, entry_count, 1)));
-        const real2 b2 = make2(load(shape, column(entry, entry_count, 2)),
-                               load(shape, column(entry, entry_count, 3)));
-        const membrane m = make_membrane(x, x1, x2, b1, b2, load(material, entry),
-                                         load(material, column(entry, entry_count, 1)));
-        const real2 own = make2(-(b1.u + b2.u), -(b1.v + b2.v));
-        s.gradient = add(s.gradient, membrane_gradient(m, own));
-        s.hessian = add_sym(s.hessian, membrane_hessian(m, own));
+        const membrane_entry e =
+            load_membrane(positions, others, shape, material, x, entry, entry_count);
+        s.gradient = add(s.gradient, membrane_gradient(e.element, e.own));
+        s.hessian = add_sym(s.hessian, membrane_hessian(e.element, e.own));
     }
     store_slope(sums, i, item_count, s);
 }
@@ -46,15 +64,9 @@ WEFT_KERNEL(gather_membrane_forces, WEFT_GLOBAL const float4* positions,
     const int length = row_length(slices, i);
     for (int k = 0; k < length; ++k) {
         const item entry = row_entry(slices, i, stride, k);
-        const real3 x1 = xyz(gather4(positions, load_index(others, entry)));
-        const real3 x2 = xyz(gather4(positions, load_index(others, column(entry, entry_count, 1))));
-        const real2 b1 = make2(load(shape, entry), load(shape, column(entry, entry_count, 1)));
-        const real2 b2 = make2(load(shape, column(entry, entry_count, 2)),
-                               load(shape, column(entry, entry_count, 3)));
-        const membrane m = make_membrane(x, x1, x2, b1, b2, load(material, entry),
-                                         load(material, column(entry, entry_count, 1)));
-        const real2 own = make2(-(b1.u + b2.u), -(b1.v + b2.v));
-        gradient = add(gradient, membrane_gradient(m, own));
+        const membrane_entry e =
+            load_membrane(positions, others, shape, material, x, entry, entry_count);
+        gradient = add(gradient, membrane_gradient(e.element, e.own));
     }
     store_gradient(sums, i, item_count, gradient);
 }

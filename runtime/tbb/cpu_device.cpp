@@ -145,7 +145,7 @@ public:
             for (const Launch& launch : body->launches) bound.launches.emplace_back(launch, lanes);
             bodies_.push_back(std::move(bound));
         }
-        worker_ = std::jthread([this](std::stop_token stop) { work(stop); });
+        worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
     }
 
     /// Whoever still waits for jobs that will not run (a device failed in mid-submission) must not

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "runtime/error.h"
+#include "simulation/output/xml_text.h"
 
 namespace weft {
 
@@ -34,32 +35,12 @@ constexpr const char* kGrid = R"(<Grid Name="bodies">
 </Grid>
 )";
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
-XdmfFile::XdmfFile(const std::filesystem::path& path, std::string data_file,
+XdmfFile::XdmfFile(const std::filesystem::path& path, const std::string& data_file,
                    std::size_t triangle_count, std::size_t vertex_count)
     : path_(path),
-      data_file_(escaped(data_file)),
+      data_file_(xml_text(data_file)),
       triangle_count_(triangle_count),
       vertex_count_(vertex_count),
       stream_(path, std::ios::binary | std::ios::trunc) {

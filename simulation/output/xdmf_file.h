@@ -13,8 +13,8 @@ namespace weft {
 class XdmfFile {
 public:
     /// data_file  name of the HDF5 file, in the same folder
-    XdmfFile(const std::filesystem::path& path, std::string data_file, std::size_t triangle_count,
-             std::size_t vertex_count);
+    XdmfFile(const std::filesystem::path& path, const std::string& data_file,
+             std::size_t triangle_count, std::size_t vertex_count);
 
     /// positions  path of the step's dataset [vertices, 3] in the data file
     void append(double time, const std::string& positions);

@@ -6,6 +6,7 @@
 #include "runtime/error.h"
 #include "simulation/mesh/mesh_checks.h"
 #include "simulation/mesh/obj_reader.h"
+#include "tests/mutation.h"
 
 namespace weft {
 namespace {
@@ -17,34 +18,13 @@ constexpr const char* kText =
 const char* const kPieces[] = {"-1", "0",  "1e999", "nan", "/",  "\n",          "f ", "v ",
                                "\\", "\t", "#",     "-",   "e-", "99999999999", " 2"};
 
-std::string mutated(std::string text, std::mt19937& random) {
-    const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-    const std::size_t changes = 1 + below(5);
-    for (std::size_t i = 0; i < changes; ++i) {
-        const std::size_t at = below(text.size());
-        switch (below(4)) {
-            case 0:
-                text.erase(at, 1 + below(10));
-                break;
-            case 1:
-                text.insert(at, kPieces[below(std::size(kPieces))]);
-                break;
-            case 2:
-                text.insert(at, text.substr(below(text.size()), below(40)));
-                break;
-            default:
-                if (!text.empty()) text[at] = static_cast<char>(below(256));
-        }
-    }
-    return text;
-}
-
 TEST(ObjFuzz, MutatedTextIsReadOrRefused) {
     std::mt19937 random(7);
     for (int i = 0; i < 20000; ++i) {
         Warnings warnings;
         try {
-            TriangleMesh mesh = parse_obj(mutated(kText, random), "fuzz.obj", warnings);
+            TriangleMesh mesh =
+                parse_obj(test::mutated(kText, random, kPieces), "fuzz.obj", warnings);
             drop_duplicates(mesh, warnings);
             warn_of_odd_topology(mesh, warnings);
             for (const auto& triangle : mesh.triangles) {

@@ -6,6 +6,7 @@
 #include "runtime/error.h"
 #include "simulation/mesh/tet_checks.h"
 #include "simulation/mesh/tet_reader.h"
+#include "tests/mutation.h"
 #include "tests/simulation/mesh/tet_texts.h"
 
 namespace weft {
@@ -14,34 +15,12 @@ namespace {
 const char* const kPieces[] = {"-1", "0", "1e999", "nan", "$",       "\n",          "$End", " 4 ",
                                "\t", "#", "-",     "e-",  "OFFSETS", "99999999999", " 2"};
 
-std::string mutated(std::string text, std::mt19937& random) {
-    const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-    const std::size_t changes = 1 + below(4);
-    for (std::size_t i = 0; i < changes; ++i) {
-        const std::size_t at = below(text.size());
-        switch (below(4)) {
-            case 0:
-                text.erase(at, 1 + below(10));
-                break;
-            case 1:
-                text.insert(at, kPieces[below(std::size(kPieces))]);
-                break;
-            case 2:
-                text.insert(at, text.substr(below(text.size()), below(40)));
-                break;
-            default:
-                if (!text.empty()) text[at] = static_cast<char>(below(256));
-        }
-    }
-    return text;
-}
-
 TEST(TetFuzz, MutatedTextIsReadOrRefused) {
     std::mt19937 random(11);
     int read = 0;
     for (int i = 0; i < 20000; ++i) {
         const std::string* const texts[] = {&test::kMsh2, &test::kMsh4, &test::kVtk2, &test::kVtk5};
-        const std::string text = mutated(*texts[i % 4], random);
+        const std::string text = test::mutated(*texts[i % 4], random, kPieces);
         Warnings warnings;
         try {
             TetMesh mesh = i % 4 < 2 ? parse_msh(text, "fuzz.msh") : parse_vtk(text, "fuzz.vtk");

@@ -6,6 +6,7 @@
 #include "runtime/error.h"
 #include "scene_text.h"
 #include "simulation/scene/read_scene.h"
+#include "tests/mutation.h"
 
 namespace weft {
 namespace {
@@ -21,28 +22,6 @@ const char* const kPieces[] = {"-1",        "0",
                                "\0x",       "\"",
                                "#",         "cloth",
                                "[[cloth]]", "9223372036854775807"};
-
-std::string mutated(std::string text, std::mt19937& random) {
-    const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-    const std::size_t changes = 1 + below(4);
-    for (std::size_t i = 0; i < changes; ++i) {
-        const std::size_t at = below(text.size());
-        switch (below(4)) {
-            case 0:
-                text.erase(at, 1 + below(12));
-                break;
-            case 1:
-                text.insert(at, kPieces[below(std::size(kPieces))]);
-                break;
-            case 2:
-                text.insert(at, text.substr(below(text.size()), below(60)));
-                break;
-            default:
-                if (!text.empty()) text[at] = static_cast<char>(below(256));
-        }
-    }
-    return text;
-}
 
 /// Replaces the value of one line: broken TOML hides mistakes of meaning, this finds those.
 std::string with_other_value(std::string text, std::mt19937& random) {
@@ -62,7 +41,7 @@ void read_or_refuse(const std::string& text) {
 
 TEST(SceneFuzz, MutatedTextIsReadOrRefused) {
     std::mt19937 random(1);
-    for (int i = 0; i < 2000; ++i) read_or_refuse(mutated(test::kFullScene, random));
+    for (int i = 0; i < 2000; ++i) read_or_refuse(test::mutated(test::kFullScene, random, kPieces));
 }
 
 TEST(SceneFuzz, OddValuesAreReadOrRefused) {
@@ -75,7 +54,8 @@ TEST(SceneFuzz, MutatedOverridesAreReadOrRefused) {
     const std::string path = "cloth[1].pins[0].motion.keyframes[1].translate=[0.0, 1.0, 0.0]";
     for (int i = 0; i < 2000; ++i) {
         try {
-            parse_scene(test::kFullScene, "s.toml", {{mutated(path, random), "--set"}});
+            parse_scene(test::kFullScene, "s.toml",
+                        {{test::mutated(path, random, kPieces), "--set"}});
         } catch (const UserError&) {
         }
     }
