@@ -35,7 +35,7 @@ struct RunDescription {
     TextPairs settings;      ///< e.g. {"math", "strict"}, {"plan", "exact"}, {"substeps", "8"}
     TextPairs meshes;  ///< bodies whose shape is a file, e.g. "cloth.shirt": hash of its bytes
     std::vector<DeviceDescription> devices;
-    std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "spring", "integrate"
+    std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "predict", "strips"
     std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
     /// False where all devices share memory: then there is no transfers table.
     bool has_transfers = false;

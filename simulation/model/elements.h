@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// The elements of one kind as kernels want them: sorted by (phase, colour, strip), column-major.
+/// The elements of one kind as kernels want them: sorted by (phase, strip, colour), column-major.
 class Elements {
 public:
     Elements(const std::string& name, const Stencils& stencils, const Strips& strips);

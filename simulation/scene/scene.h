@@ -150,16 +150,12 @@ struct Attachment {
 
 /// [[obstacle]]: a rigid body that moves as it is told and pushes cloth and solids out.
 ///
-/// Every shape lives in its own local frame, so that a kernel for it is one signed distance:
-///   sphere   dimensions = {radius}, around the origin
-///   plane    dimensions = {}, solid below local y = 0
-///   capsule  dimensions = {radius, half length of the axis}, along local y
-///   box      dimensions = {half width x, y, z}, around the origin
+/// Every shape lives in its own local frame, so that a kernel for it is one signed distance.
 /// obstacle_shapes.h is the list of shapes.
 struct Obstacle {
     std::string name;                    ///< unique in its scene
-    std::string shape;                   ///< "sphere", "plane", "capsule", "box"
-    std::array<double, 4> dimensions{};  ///< [m]
+    std::string shape;                   ///< as in obstacle_shapes.h
+    std::array<double, 4> dimensions{};  ///< [m] as in kernels/obstacles/<shape>.h
     Frame frame;                         ///< local to world at time 0
     std::optional<double> friction;      ///< Coulomb coefficient, > 0
     double thickness = 0.0;              ///< [m] cloth keeps this distance, >= 0

@@ -30,7 +30,7 @@ public:
     virtual Step make_step(std::span<const int> cuts) = 0;
 };
 
-/// Throws UserError for a method that this version does not have.
+/// The solver that the model's scene names.
 std::unique_ptr<Solver> make_solver(Model& model);
 
 }  // namespace weft
