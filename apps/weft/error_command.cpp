@@ -1,10 +1,11 @@
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/error_picture.h"
 #include "apps/weft/error_report.h"
+#include "apps/weft/trace_support.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
 
@@ -12,13 +13,24 @@ namespace weft {
 
 namespace {
 
-/// Whole or not at all.
-void write_text(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path part = path.string() + ".part";
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    if (!out.flush()) throw UserError("--out: cannot write " + part.string());
-    std::filesystem::rename(part, path);
+void write_whole(const std::filesystem::path& path, const std::string& content) {
+    WholeFile file(path);
+    file.write(content);
+    file.finish();
+}
+
+/// folder/error.svg, and error.png where there is cairo. What was written, for people.
+std::string write_pictures(const std::filesystem::path& folder, const ErrorStudy& study) {
+    const ErrorPicture picture(study);
+    const auto write = [&](std::unique_ptr<Canvas> canvas, const char* name) {
+        picture.draw(*canvas);
+        write_whole(folder / name, canvas->finish());
+    };
+    write(make_svg_canvas(picture.width(), picture.height()), "error.svg");
+    auto png = make_png_canvas(picture.width(), picture.height());
+    if (!png) return "error.svg (no error.png: this weft was built without cairo)";
+    write(std::move(png), "error.png");
+    return "error.svg, error.png";
 }
 
 std::filesystem::path make_folder(const ErrorOptions& options) {
@@ -38,12 +50,15 @@ void run_error(ErrorOptions options) {
     if (options.solvers.empty()) options.solvers = method_names();
     const std::filesystem::path folder = make_folder(options);
     const ErrorStudy study = study_errors(options);
-    write_text(folder / "error.csv", to_csv(study));
+    write_whole(folder / "error.csv", to_csv(study));
     write_error_file(folder / "error.h5", study);
-    if (options.run.json)
+    const std::string pictures = write_pictures(folder, study);
+    if (options.run.json) {
         std::cout << to_json(study).dump(2) << std::endl;
-    else
-        std::cout << to_text(study) << "\nerror.csv, error.h5: " << folder.string() << std::endl;
+    } else {
+        std::cout << to_text(study) << "\n"
+                  << folder.string() << ": error.csv, error.h5, " << pictures << std::endl;
+    }
 }
 
 }  // namespace
@@ -79,7 +94,9 @@ void add_error_command(CLI::App& app) {
         "the minimum by Newton's method in double precision: relative error = (E - E*)/(E0 - E*).\n"
         "A point is one whole step with so many iterations, timed without the evaluation of E, "
         "the\n"
-        "median of three. Writes error.csv and error.h5. docs/solvers.md explains.\n\n"
+        "median of three. Writes error.csv, error.h5, and a picture, error.svg and error.png (with "
+        "cairo).\n"
+        "docs/solvers.md explains.\n\n"
         "Example:\n"
         "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1");
     command->callback([options] { run_error(*options); });

@@ -1,6 +1,7 @@
 #include "apps/weft/error_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -33,12 +34,13 @@ std::string to_text(const ErrorStudy& study) {
     const Minimum& minimum = study.minimum;
     std::string text = fmt::format(
         "{}, frame {}: one step of {:g} ms, {} vertices\n"
+        "E: {}\n"
         "reference: E0 = {:.9g} J, E* = {:.9g} J, {:.1e} of E0 - E* left to gain, gradient {:.1e} "
         "of the forces in it\n"
         "float32 rounds the reference itself to a relative error of {:.1e}\n",
-        study.scene, study.frame, 1e3 * study.step, study.vertices, minimum.start_energy,
-        minimum.energy, minimum.certificate.relative_gap, minimum.certificate.relative_gradient,
-        study.rounding_floor);
+        study.scene, study.frame, 1e3 * study.step, study.vertices, fmt::join(study.energies, ", "),
+        minimum.start_energy, minimum.energy, minimum.certificate.relative_gap,
+        minimum.certificate.relative_gradient, study.rounding_floor);
     for (const std::string& note : study.notes) text += "note: " + note + '\n';
     text += fmt::format("\n{:<8}{:<24}{:<8}{:>18}{:>18}{:>18}{:>12}\n", "solver", "devices", "plan",
                         "to 1e-1", "to 1e-2", "to 1e-3", "reached");
@@ -77,6 +79,7 @@ nlohmann::ordered_json to_json(const ErrorStudy& study) {
             {"frame", study.frame},
             {"vertices", study.vertices},
             {"step", study.step},
+            {"energies", study.energies},
             {"start_energy", study.minimum.start_energy},
             {"reference_energy", study.minimum.energy},
             {"certificate",

@@ -44,6 +44,8 @@ void write_study(const std::string& path, const ErrorStudy& study) {
     hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
     hdf5::write_text_attribute(file.id(), "format", "weft-error");
     hdf5::write_text_attribute(file.id(), "scene", study.scene);
+    hdf5::write_text_attribute(file.id(), "energies",
+                               fmt::format("{}", fmt::join(study.energies, "\n")));
     hdf5::write_text_attribute(file.id(), "notes", fmt::format("{}", fmt::join(study.notes, "\n")));
     const std::array<int, 1> frame = {study.frame};
     hdf5::write_int_attribute(file.id(), "frame", frame);

@@ -27,8 +27,9 @@ struct ErrorStudy {
     std::string scene;
     int frame = 0;
     int vertices = 0;
-    double step = 0.0;  ///< [s]
-    std::vector<std::string> notes;
+    double step = 0.0;                  ///< [s]
+    std::vector<std::string> energies;  ///< what E is the sum of
+    std::vector<std::string> notes;     ///< among them: what is no part of E
     Minimum minimum;
     /// Relative error of the minimiser itself with its positions rounded to float32: what no solver
     /// in single precision can be expected to get far below.
