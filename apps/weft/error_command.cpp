@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -6,6 +8,9 @@
 #include "apps/weft/error_picture.h"
 #include "apps/weft/error_report.h"
 #include "apps/weft/trace_support.h"
+#include "apps/weft/trajectory_picture.h"
+#include "apps/weft/trajectory_report.h"
+#include "apps/weft/trajectory_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
 
@@ -19,18 +24,27 @@ void write_whole(const std::filesystem::path& path, const std::string& content) 
     file.finish();
 }
 
-/// folder/error.svg, and error.png where there is cairo. What was written, for people.
-std::string write_pictures(const std::filesystem::path& folder, const ErrorStudy& study) {
-    const ErrorPicture picture(study);
-    const auto write = [&](std::unique_ptr<Canvas> canvas, const char* name) {
+/// folder/name.svg, and name.png where there is cairo. What was written, for people.
+template <class Picture>
+std::string write_pictures(const std::filesystem::path& folder, const std::string& name,
+                           const Picture& picture) {
+    const auto write = [&](std::unique_ptr<Canvas> canvas, const std::string& file) {
         picture.draw(*canvas);
-        write_whole(folder / name, canvas->finish());
+        write_whole(folder / file, canvas->finish());
     };
-    write(make_svg_canvas(picture.width(), picture.height()), "error.svg");
+    write(make_svg_canvas(picture.width(), picture.height()), name + ".svg");
     auto png = make_png_canvas(picture.width(), picture.height());
-    if (!png) return "error.svg (no error.png: this weft was built without cairo)";
-    write(std::move(png), "error.png");
-    return "error.svg, error.png";
+    if (!png) return fmt::format("{0}.svg (no {0}.png: this weft was built without cairo)", name);
+    write(std::move(png), name + ".png");
+    return fmt::format("{0}.svg, {0}.png", name);
+}
+
+template <class Study>
+void print_study(const ErrorOptions& options, const Study& study, const std::string& files) {
+    if (options.run.json)
+        std::cout << to_json(study).dump(2) << std::endl;
+    else
+        std::cout << to_text(study) << '\n' << files << std::endl;
 }
 
 std::filesystem::path make_folder(const ErrorOptions& options) {
@@ -44,21 +58,55 @@ std::filesystem::path make_folder(const ErrorOptions& options) {
     return folder;
 }
 
+void run_one_step(const ErrorOptions& options, const std::filesystem::path& folder) {
+    const ErrorStudy study = study_errors(options);
+    write_whole(folder / "error.csv", to_csv(study));
+    write_error_file(folder / "error.h5", study);
+    const std::string pictures = write_pictures(folder, "error", ErrorPicture(study));
+    print_study(options, study, folder.string() + ": error.csv, error.h5, " + pictures);
+}
+
+void run_trajectories(const ErrorOptions& options, const std::filesystem::path& folder) {
+    const TrajectoryStudy study = study_trajectories(options);
+    write_whole(folder / "trajectory.csv", to_csv(study));
+    write_trajectory_file(folder / "trajectory.h5", study);
+    const std::string pictures = write_pictures(folder, "trajectory", TrajectoryPicture(study));
+    print_study(options, study, folder.string() + ": trajectory.csv, trajectory.h5, " + pictures);
+}
+
 void run_error(ErrorOptions options) {
     if (options.devices.empty()) options.devices = {hybrid_devices()};
     if (options.plans.empty()) options.plans = {"auto"};
     if (options.solvers.empty()) options.solvers = method_names();
     const std::filesystem::path folder = make_folder(options);
-    const ErrorStudy study = study_errors(options);
-    write_whole(folder / "error.csv", to_csv(study));
-    write_error_file(folder / "error.h5", study);
-    const std::string pictures = write_pictures(folder, study);
-    if (options.run.json) {
-        std::cout << to_json(study).dump(2) << std::endl;
-    } else {
-        std::cout << to_text(study) << "\n"
-                  << folder.string() << ": error.csv, error.h5, " << pictures << std::endl;
+    if (options.trajectory)
+        run_trajectories(options, folder);
+    else
+        run_one_step(options, folder);
+}
+
+void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
+    CLI::Option* flag = command.add_flag(
+        "--trajectory", options.trajectory,
+        "measure whole runs instead: substeps x iterations, against a run with far smaller steps");
+    for (const char* other : {"--frame", "--substeps", "--max-iterations"}) {
+        flag->excludes(command.get_option(other));
     }
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        CLI::Option* option = command.add_option(name, value, help);
+        option->needs(flag);
+        return option;
+    };
+    add("--sweep-substeps", options.sweep_substeps, "substeps per frame, separated by commas")
+        ->delimiter(',')
+        ->capture_default_str();
+    add("--sweep-iterations", options.sweep_iterations, "iterations, separated by commas")
+        ->delimiter(',')
+        ->capture_default_str();
+    add("--max-work", options.max_work, "the most substeps times iterations of a run")
+        ->capture_default_str();
+    add("--reference-substeps", options.reference_substeps,
+        "of the run that the others are compared with (8 times the most that are swept)");
 }
 
 }  // namespace
@@ -84,11 +132,11 @@ void add_error_command(CLI::App& app) {
     command
         ->add_option("--max-iterations", options->max_iterations, "iterations that a curve goes to")
         ->capture_default_str();
-    command
-        ->add_option("--time", options->time,
-                     "seconds after which a curve measures no further point")
-        ->capture_default_str();
+    command->add_option("--time", options->time,
+                        "seconds after which a curve measures no further point (10; whole runs: "
+                        "60)");
     command->add_option("--out", options->run.out, "output folder; default: out/<scene name>");
+    add_trajectory_options(*command, *options);
     command->footer(
         "Every solver starts one step from the same state, and its energy E is compared with E*,\n"
         "the minimum by Newton's method in double precision: relative error = (E - E*)/(E0 - E*).\n"
@@ -96,9 +144,13 @@ void add_error_command(CLI::App& app) {
         "the\n"
         "median of three. Writes error.csv, error.h5, and a picture, error.svg and error.png (with "
         "cairo).\n"
-        "docs/solvers.md explains.\n\n"
-        "Example:\n"
-        "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1");
+        "With --trajectory, whole runs: the RMS distance of all vertices from a run with far "
+        "smaller\n"
+        "steps, and the Pareto front; trajectory.csv, .h5, .svg, .png. docs/solvers.md "
+        "explains.\n\n"
+        "Examples:\n"
+        "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1\n"
+        "  weft error scenes/sheet.toml --trajectory --frames 20 --devices cpu/1");
     command->callback([options] { run_error(*options); });
 }
 

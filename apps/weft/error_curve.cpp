@@ -70,12 +70,13 @@ ErrorPoint measure_point(const ErrorOptions& options, const RunOptions& run,
 MeasuredCurve measure_points(const ErrorOptions& options, const RunOptions& run,
                              const ErrorProblem& problem) {
     const auto now = std::chrono::steady_clock::now;
+    const double limit = options.time.value_or(10.0);
     auto begin = now();
     MeasuredCurve measured;
     measured.end = fmt::format("--max-iterations {}", options.max_iterations);
     for (const int iterations : measured_iterations(options.max_iterations)) {
-        if (std::chrono::duration<double>(now() - begin).count() > options.time) {
-            measured.end = fmt::format("--time {:g}", options.time);
+        if (std::chrono::duration<double>(now() - begin).count() > limit) {
+            measured.end = fmt::format("--time {:g}", limit);
             break;
         }
         try {

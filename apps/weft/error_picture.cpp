@@ -2,19 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace weft {
 
 namespace {
-
-/// The number of `name` among those seen so far.
-std::size_t number_of(std::vector<std::string>& seen, const std::string& name) {
-    const auto at = std::find(seen.begin(), seen.end(), name);
-    if (at != seen.end()) return static_cast<std::size_t>(at - seen.begin());
-    seen.push_back(name);
-    return seen.size() - 1;
-}
 
 std::string title_of(const ErrorStudy& study) {
     return fmt::format("{}, frame {}: one step of {:.3g} ms, {} vertices", study.scene, study.frame,

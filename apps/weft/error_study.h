@@ -14,8 +14,16 @@ struct ErrorOptions {
     RunOptions run;
     std::optional<int> frame;
     std::vector<std::string> solvers, devices, plans;
+    /// [s] that the measurements of one curve may take; null: what fits the mode
+    std::optional<double> time;
     int max_iterations = 1000;
-    double time = 10.0;  ///< [s] that the measurements of one curve may take
+
+    // For whole runs.
+    bool trajectory = false;
+    std::vector<int> sweep_substeps{1, 2, 4, 8, 16, 32, 64};
+    std::vector<int> sweep_iterations{1, 2, 4, 8, 16, 32, 64};
+    int max_work = 128;                     ///< substeps * iterations of a run
+    std::optional<int> reference_substeps;  ///< null: 8 times the most that are swept
 };
 
 /// Measures all curves. Throws UserError, RunError.

@@ -35,6 +35,13 @@ std::string number(double value) {
 
 }  // namespace
 
+std::size_t number_of(std::vector<std::string>& seen, const std::string& name) {
+    const auto at = std::find(seen.begin(), seen.end(), name);
+    const auto number = static_cast<std::size_t>(at - seen.begin());
+    if (at == seen.end()) seen.push_back(name);
+    return number;
+}
+
 void LogPlot::Scale::include(double value) {
     least = least == 0.0 ? value : std::min(least, value);
     most = std::max(most, value);

@@ -13,6 +13,21 @@ struct CurveStyle {
     std::size_t line = 0;    ///< solid or dashed, with squares or triangles
 };
 
+/// The number of `name` among those seen so far, which it joins.
+std::size_t number_of(std::vector<std::string>& seen, const std::string& name);
+
+/// Colours by solver, lines by devices and plan.
+template <class Curve>
+std::vector<CurveStyle> curve_styles(const std::vector<Curve>& curves) {
+    std::vector<std::string> solvers, lists;
+    std::vector<CurveStyle> styles;
+    for (const Curve& curve : curves) {
+        const std::size_t colour = number_of(solvers, curve.solver);
+        styles.push_back({colour, number_of(lists, curve.devices + ' ' + curve.plan)});
+    }
+    return styles;
+}
+
 /// Axes with logarithmic scales, a legend, and the places of points between them. A point that has
 /// no logarithm has no place: see has_place().
 class LogPlot {

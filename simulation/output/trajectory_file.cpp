@@ -1,0 +1,80 @@
+#include "simulation/output/trajectory_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "runtime/error.h"
+#include "runtime/trace/hdf5.h"
+
+namespace weft {
+
+namespace {
+
+void write_number(hid_t group, const std::string& name, double value) {
+    const std::array<hsize_t, 1> shape = {1};
+    hdf5::write_array(group, name, H5T_NATIVE_DOUBLE, shape, &value);
+}
+
+template <class Stored, class Value>
+void write_column(hid_t group, const std::string& name, hid_t type, const TrajectoryCurve& curve,
+                  Value TrajectoryPoint::*member) {
+    std::vector<Stored> values;
+    for (const TrajectoryPoint& point : curve.points) {
+        values.push_back(static_cast<Stored>(point.*member));
+    }
+    const std::array<hsize_t, 1> shape = {values.size()};
+    hdf5::write_array(group, name, type, shape, values.data());
+}
+
+void write_curve(hid_t parent, const std::string& name, const TrajectoryCurve& curve) {
+    const hdf5::Handle group = hdf5::create_group(parent, name);
+    const hid_t id = group.id();
+    hdf5::write_text_attribute(id, "solver", curve.solver);
+    hdf5::write_text_attribute(id, "device", curve.devices);
+    hdf5::write_text_attribute(id, "plan", curve.plan);
+    std::string unfinished;
+    for (const UnfinishedRun& run : curve.unfinished) {
+        unfinished += fmt::format("{} x {}: {}\n", run.substeps, run.iterations, run.why);
+    }
+    hdf5::write_text_attribute(id, "unfinished", unfinished);
+    write_column<int>(id, "substeps", H5T_NATIVE_INT, curve, &TrajectoryPoint::substeps);
+    write_column<int>(id, "iterations", H5T_NATIVE_INT, curve, &TrajectoryPoint::iterations);
+    write_column<double>(id, "time_s", H5T_NATIVE_DOUBLE, curve, &TrajectoryPoint::time);
+    write_column<double>(id, "rms_m", H5T_NATIVE_DOUBLE, curve, &TrajectoryPoint::distance);
+    write_column<double>(id, "last_rms_m", H5T_NATIVE_DOUBLE, curve,
+                         &TrajectoryPoint::last_distance);
+    write_column<int>(id, "pareto", H5T_NATIVE_INT, curve, &TrajectoryPoint::on_front);
+}
+
+void write_study(const std::string& path, const TrajectoryStudy& study) {
+    const hdf5::Session session;
+    const hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
+    hdf5::write_text_attribute(file.id(), "format", "weft-trajectory");
+    hdf5::write_text_attribute(file.id(), "scene", study.scene);
+    const std::array<int, 1> frames = {study.frames};
+    hdf5::write_int_attribute(file.id(), "frames", frames);
+
+    const hdf5::Handle reference = hdf5::create_group(file.id(), "reference");
+    const std::array<int, 1> substeps = {study.reference_substeps};
+    hdf5::write_int_attribute(reference.id(), "substeps", substeps);
+    write_number(reference.id(), "doubt_m", study.doubt);
+
+    const hdf5::Handle curves = hdf5::create_group(file.id(), "curves");
+    for (std::size_t c = 0; c < study.curves.size(); ++c) {
+        write_curve(curves.id(), fmt::format("{:03}", c), study.curves[c]);
+    }
+}
+
+}  // namespace
+
+void write_trajectory_file(const std::filesystem::path& path, const TrajectoryStudy& study) {
+    try {
+        write_study(path.string(), study);
+        hdf5::publish(path.string());
+    } catch (const hdf5::Error& error) {
+        throw RunError(path.string() + ": " + error.what());
+    }
+}
+
+}  // namespace weft
