@@ -69,7 +69,7 @@ struct TaskBody {
     int kind = 0;      ///< what the cost model tells apart
     std::vector<Launch> launches;
     /// So many of the first launches take turns: all of them for colour 0, then all for colour 1,
-    /// and so on. They have the same segments.
+    /// and so on. They have the same strips and numbers of colours.
     int taking_turns = 0;
 
     /// What the cost model counts: items of all launches in strips [first_strip, end_strip).

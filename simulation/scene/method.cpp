@@ -17,6 +17,7 @@ struct Entry {
 constexpr Entry kMethods[] = {
     {Method::kXpbd, "xpbd", false},
     {Method::kVbd, "vbd", true},
+    {Method::kSosd, "sosd", true},
     {Method::kJpgd, "jpgd", false},
 };
 

@@ -7,7 +7,7 @@
 namespace weft {
 
 /// The solvers by the names that scenes give them.
-enum class Method { kXpbd, kVbd, kJpgd };
+enum class Method { kXpbd, kVbd, kSosd, kJpgd };
 
 std::vector<std::string> method_names();
 std::string_view name_of(Method method);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "simulation/solver/jpgd.h"
+#include "simulation/solver/sosd.h"
 #include "simulation/solver/vbd.h"
 #include "simulation/solver/xpbd.h"
 
@@ -14,6 +15,8 @@ std::unique_ptr<Solver> make_solver(Model& model) {
             return make_xpbd_solver(model);
         case Method::kVbd:
             return make_vbd_solver(model);
+        case Method::kSosd:
+            return make_sosd_solver(model);
         case Method::kJpgd:
             return make_jpgd_solver(model);
     }

@@ -32,7 +32,6 @@ SCENE_MISTAKES = {
     "negative_time_step": ("dt = 0.02", "dt = -0.02", ["scene.dt = -0.02", "greater than 0"]),
     "negative_stiffness": ("1.0e4", "-1.0e4", ["stiffness = -10000", "greater than 0"]),
     "zero_substeps": ("substeps = 2", "substeps = 0", ["scene.substeps = 0", "at least 1"]),
-    "solver_of_later": ('"xpbd"', '"sosd"', ['"sosd"', "not available in this version"]),
     "no_cloth": ("[[cloth]]", "[cloth]", ["scene.toml:"]),
 }
 

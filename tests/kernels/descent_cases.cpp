@@ -4,6 +4,7 @@
 #include "kernels/descent/gather_springs.h"
 #include "kernels/descent/gather_tetrahedra.h"
 #include "kernels/descent/substep.h"
+#include "kernels/sosd/solve.h"
 #include "kernels/vbd/solve.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -142,6 +143,27 @@ void solve_case(KernelCase& c) {
                       c.items, 1e2f);
 }
 
+void stencils_case(KernelCase& c) {
+    const int items = 2 * c.items;
+    auto& positions = c.add<float4>("positions", items);
+    auto& targets = c.add<float4>("targets", items);
+    auto& vertices = c.add<int>("vertices", items);
+    auto& corners = c.add<int>("corners", items);
+    auto& material = add_reals(c, "material", items, 0.0f, 2.0f);
+    auto& sums = add_reals(c, "sums", 9 * items, -1.0f, 1.0f);
+    const std::vector<int> order = c.random.permutation(items);
+    for (int i = 0; i < items; ++i) {
+        positions[at(i)] = c.random.point(c.flavour == Flavour::kRandom ? 1.0f : 0.0f);
+        positions[at(i)].w = c.random.integer(0, 5) == 0 ? 0.0f : c.random.real(0.1f, 10.0f);
+        targets[at(i)] = c.random.point(1.0f);
+        vertices[at(i)] = order[at(i)];
+        corners[at(i)] = i;
+        for (const int diagonal : {3, 6, 8}) sums[at(i + diagonal * items)] = 5.0f;
+    }
+    c.launch = launch(kernels::solve_stencils, c.segments, positions, targets, vertices, corners,
+                      material, sums, c.items, items, 1e2f);
+}
+
 void begin_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& previous = c.add<float4>("previous", 2 * c.items);
@@ -177,17 +199,17 @@ void push_case(KernelCase& c) {
     c.launch = launch(kernels::push_targets, c.segments, positions, pushed, targets);
 }
 
-const bool added = add_case("gather_springs", springs_case) &&
-                   add_case("gather_bending", bending_case) &&
-                   add_case("gather_spring_forces", spring_forces_case) &&
-                   add_case("gather_bending_forces", bending_forces_case) &&
-                   add_case("gather_tetrahedra", tetrahedra_case) &&
-                   add_case("gather_membranes", membranes_case) &&
-                   add_case("gather_tetrahedra_forces", tetrahedra_forces_case) &&
-                   add_case("gather_membrane_forces", membrane_forces_case) &&
-                   add_case("solve_vertices", solve_case) &&
-                   add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
-                   add_case("copy_positions", copy_case) && add_case("push_targets", push_case);
+const bool added =
+    add_case("gather_springs", springs_case) && add_case("gather_bending", bending_case) &&
+    add_case("gather_spring_forces", spring_forces_case) &&
+    add_case("gather_bending_forces", bending_forces_case) &&
+    add_case("gather_tetrahedra", tetrahedra_case) &&
+    add_case("gather_membranes", membranes_case) &&
+    add_case("gather_tetrahedra_forces", tetrahedra_forces_case) &&
+    add_case("gather_membrane_forces", membrane_forces_case) &&
+    add_case("solve_vertices", solve_case) && add_case("solve_stencils", stencils_case) &&
+    add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
+    add_case("copy_positions", copy_case) && add_case("push_targets", push_case);
 
 }  // namespace
 }  // namespace weft::test

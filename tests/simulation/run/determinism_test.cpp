@@ -31,6 +31,8 @@ const TestScene kScenes[] = {
     {"VbdEverything", kEverything, Method::kVbd, "b193d13349f46ab2fbbb62ed54af3a9d"},
     {"VbdSolids", kSolids, Method::kVbd, "806f7b6b2ccfcb25eb23bcbb08da7cf3"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
+    {"SosdEverything", kEverything, Method::kSosd, "dd50b25d1b82b1662d56144e38caedd9"},
+    {"SosdSpringsOnly", kSpringsOnly, Method::kSosd, "00dfd70c45689a281240dc02e561cdee"},
     {"JpgdEverything", kEverything, Method::kJpgd, "8c506120e1bf06accd014070196bdaf6"},
     {"JpgdSolids", kSolids, Method::kJpgd, "e339e03a1a91c4e4a6065882a1dda2b3"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "429c832900be0e6c9e774654dc7fb80c"},

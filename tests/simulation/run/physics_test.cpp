@@ -304,7 +304,7 @@ std::string name_of_method(const testing::TestParamInfo<Method>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Physics, EverySolver,
-                         testing::Values(Method::kXpbd, Method::kVbd, Method::kJpgd),
+                         testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd),
                          name_of_method);
 
 }  // namespace

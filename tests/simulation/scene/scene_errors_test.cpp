@@ -100,8 +100,6 @@ const Mistake kMistakes[] = {
      "rotate = [[0, 0, 0, 90]]: the axis"},
     {"UnknownSolver", "\"xpbd\"", "\"xpdb\"",
      "solver.method = \"xpdb\": unknown; did you mean 'xpbd'?"},
-    {"LaterSolver", "\"xpbd\"", "\"sosd\"",
-     "solver.method = \"sosd\": not available in this version of weft; available: xpbd, vbd, jpgd"},
     {"UnknownShape", "\"sphere\"", "\"spere\"", "did you mean 'sphere'?"},
     {"LaterShape", "\"sphere\"", "\"mesh\"", "not available in this version of weft"},
     {"Contact", "[solver]", "[contact]\nself = true\n[solver]",

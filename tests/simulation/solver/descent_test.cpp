@@ -111,7 +111,8 @@ std::string name_of_method(
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Descent,
-                         testing::Combine(testing::Values(Method::kVbd, Method::kJpgd),
+                         testing::Combine(testing::Values(Method::kVbd, Method::kSosd,
+                                                          Method::kJpgd),
                                           testing::Values(&kSheet, &kBeam)),
                          name_of_method);
 

@@ -1,0 +1,98 @@
+#include "simulation/solver/sweeps.h"
+
+#include <algorithm>
+
+namespace weft {
+
+namespace {
+enum Kind { kPredict, kSeams, kStrips, kVelocities };
+}
+
+SweepSolver::SweepSolver(Model& model)
+    : model_(model),
+      substep_(model),
+      reach_(model),
+      predict_{"predict", kPredict, substep_.begin()},
+      velocities_{"velocities", kVelocities, substep_.end()} {}
+
+void SweepSolver::add_sweep(const VertexLayout& layout,
+                            const std::function<Launch(const Gathered&)>& solve) {
+    Sweep& sweep = *sweeps_.emplace_back(std::make_unique<Sweep>(model_, layout));
+    sweep.seams = {"seams", kSeams, {}};
+    sweep.strips = {"strips", kStrips, {}};
+    const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
+    for (const Phase phase : {kSeamPhase, kInnerPhase}) {
+        TaskBody& body = phase == kSeamPhase ? sweep.seams : sweep.strips;
+        body.launches = sweep.slopes.gather(phase, *model_.positions);
+        body.launches.push_back(
+            solve({phase, sweep.items, sweep.slopes.sums(), substep_.targets(), inverse_h2}));
+        body.taking_turns = static_cast<int>(body.launches.size());
+    }
+    substep_.add_contacts(sweep.strips.launches, *model_.positions);
+}
+
+std::vector<const TaskBody*> SweepSolver::bodies() const {
+    std::vector<const TaskBody*> list{&predict_};
+    for (const auto& sweep : sweeps_) {
+        list.push_back(&sweep->seams);
+        list.push_back(&sweep->strips);
+    }
+    list.push_back(&velocities_);
+    return list;
+}
+
+std::vector<std::string> SweepSolver::kinds() const {
+    return {"predict", "seams", "strips", "velocities"};
+}
+
+Step SweepSolver::make_step(std::span<const int> cuts) {
+    const auto regions = regions_between(cuts, model_.strips.count());
+    const int iterations = model_.scene.solver.iterations;
+    Step step;
+    for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+    for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
+    for (const Region& region : regions) {
+        substep_.add_end(step, velocities_, region, iterations - 1);
+    }
+    step.seal();
+    return step;
+}
+
+/// As XPBD's: seams first, the open ones as tasks of their own; then strips.
+void SweepSolver::add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
+    for (const Region& region : regions) {
+        add_seams(step, iteration, region.begin, region.end - 1, region.id);
+    }
+    for (const Region& region : regions) {
+        if (!region.cut_behind) continue;
+        add_seams(step, iteration, region.end - 1, region.end, region.id);
+    }
+    for (const Region& region : regions) {
+        for_each_share(region, [&](int begin, int end) {
+            add_strips(step, iteration, begin, end, region.id);
+        });
+    }
+}
+
+/// The vertices of a seam lie within its hull; their elements reach into both strips.
+void SweepSolver::add_seams(Step& step, int iteration, int begin, int end, int region) {
+    end = std::min(end, model_.strips.seam_count());
+    if (begin >= end) return;
+    const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
+    const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
+    const auto [reach_begin, reach_end] = reach_.around(first, last);
+    step.add(sweep(iteration).seams, iteration, begin, end, region)
+        .updates(*model_.positions, first, last)
+        .reads(*model_.positions, reach_begin, first)
+        .reads(*model_.positions, last, reach_end)
+        .reads(substep_.targets(), first, last);
+}
+
+void SweepSolver::add_strips(Step& step, int iteration, int begin, int end, int region) {
+    const auto [first, last] = substep_.vertices(begin, end);
+    auto task = step.add(sweep(iteration).strips, iteration, begin, end, region);
+    task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);
+    substep_.add_contact_accesses(task, first, last);
+}
+
+}  // namespace weft

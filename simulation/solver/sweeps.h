@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "simulation/solver/descent.h"
+#include "simulation/solver/slopes.h"
+#include "simulation/solver/solver.h"
+
+namespace weft {
+
+/// What block descent methods share: Gauss-Seidel sweeps over the vertices on strips and seams.
+///
+/// A substep: predict, then `iterations` sweeps, each
+///   seams:  all vertices with elements between two strips, colour by colour: the elements add up
+///           gradient and Hessian of each vertex, then the method solves its systems
+///   strips: all vertices inside a strip likewise, then obstacles (all vertices), as in XPBD: an
+///           iteration ends without penetration, and friction sees the whole iteration's slip
+/// then velocities. This order is the same for every number of devices: it defines the result.
+class SweepSolver : public Solver {
+public:
+    std::vector<const TaskBody*> bodies() const override;
+    std::vector<std::string> kinds() const override;
+    std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    Step make_step(std::span<const int> cuts) override;
+
+protected:
+    explicit SweepSolver(Model& model);
+
+    /// What a method's launch works on, and what it is told.
+    struct Gathered {
+        Phase phase;
+        VertexItems& items;
+        Buffer<float>& sums;
+        Buffer<float4>& targets;
+        float inverse_h2;
+    };
+    /// Adds a sweep; iteration i does number i modulo their number.
+    /// solve: the launch that moves vertices, over as many colours as the items have
+    void add_sweep(const VertexLayout& layout, const std::function<Launch(const Gathered&)>& solve);
+
+    Model& model() { return model_; }
+
+private:
+    struct Sweep {
+        Sweep(const Model& model, const VertexLayout& layout)
+            : items(layout), slopes(model, items) {}
+        VertexItems items;
+        Slopes slopes;
+        TaskBody seams, strips;
+    };
+    void add_iteration(Step& step, const std::vector<Region>& regions, int iteration);
+    void add_seams(Step& step, int iteration, int begin, int end, int region);
+    void add_strips(Step& step, int iteration, int begin, int end, int region);
+    const Sweep& sweep(int iteration) const {
+        return *sweeps_[static_cast<std::size_t>(iteration) % sweeps_.size()];
+    }
+
+    Model& model_;
+    DescentSubstep substep_;
+    Reach reach_;
+    TaskBody predict_, velocities_;
+    std::vector<std::unique_ptr<Sweep>> sweeps_;
+};
+
+}  // namespace weft
