@@ -50,26 +50,39 @@ WEFT_INLINE real3 multiply_sym(sym3 a, real3 v) {
 
 WEFT_INLINE real trace_sym(sym3 a) { return a.xx + a.yy + a.zz; }
 
-/// Solves a x = b for a positive semi-definite `a`, by L D L^T. A pivot that rounding made tiny or
-/// negative is lifted to 2e-7 of the trace: what counts as singular has no unit, so light
-/// materials and stiff ones are solved alike, and x^T b >= 0 holds always.
-WEFT_INLINE real3 solve_sym(sym3 a, real3 b) {
-    const real least = larger(trace_sym(a) * splat(2e-7f), splat(1e-30f));
-    const real inverse_x = splat(1.0f) / larger(a.xx, least);
-    const real l_yx = a.xy * inverse_x;
-    const real l_zx = a.xz * inverse_x;
-    const real inverse_y = splat(1.0f) / larger(a.yy - l_yx * a.xy, least);
-    const real yz = a.yz - l_yx * a.xz;
-    const real l_zy = yz * inverse_y;
-    const real inverse_z = splat(1.0f) / larger(a.zz - l_zx * a.xz - l_zy * yz, least);
+/// L D L^T of a positive semi-definite matrix: L below its diagonal of ones, and 1 / D
+typedef struct {
+    real l_yx, l_zx, l_zy;
+    real inverse_x, inverse_y, inverse_z;
+} sym3_factors;
 
-    const real y = b.y - l_yx * b.x;
-    const real z = b.z - l_zx * b.x - l_zy * y;
-    const real solution_z = z * inverse_z;
-    const real solution_y = y * inverse_y - l_zy * solution_z;
-    const real solution_x = b.x * inverse_x - l_yx * solution_y - l_zx * solution_z;
+/// A pivot that rounding made tiny or negative is lifted to 2e-7 of the trace: what counts as
+/// singular has no unit, so light materials and stiff ones are solved alike, and solutions have
+/// x^T b >= 0 always.
+WEFT_INLINE sym3_factors factor_sym(sym3 a) {
+    sym3_factors f;
+    const real least = larger(trace_sym(a) * splat(2e-7f), splat(1e-30f));
+    f.inverse_x = splat(1.0f) / larger(a.xx, least);
+    f.l_yx = a.xy * f.inverse_x;
+    f.l_zx = a.xz * f.inverse_x;
+    f.inverse_y = splat(1.0f) / larger(a.yy - f.l_yx * a.xy, least);
+    const real yz = a.yz - f.l_yx * a.xz;
+    f.l_zy = yz * f.inverse_y;
+    f.inverse_z = splat(1.0f) / larger(a.zz - f.l_zx * a.xz - f.l_zy * yz, least);
+    return f;
+}
+
+WEFT_INLINE real3 solve_factored(sym3_factors f, real3 b) {
+    const real y = b.y - f.l_yx * b.x;
+    const real z = b.z - f.l_zx * b.x - f.l_zy * y;
+    const real solution_z = z * f.inverse_z;
+    const real solution_y = y * f.inverse_y - f.l_zy * solution_z;
+    const real solution_x = b.x * f.inverse_x - f.l_yx * solution_y - f.l_zx * solution_z;
     return make3(solution_x, solution_y, solution_z);
 }
+
+/// Solves a x = b for a positive semi-definite `a`.
+WEFT_INLINE real3 solve_sym(sym3 a, real3 b) { return solve_factored(factor_sym(a), b); }
 
 /// By columns.
 typedef struct {
@@ -111,6 +124,11 @@ WEFT_INLINE mat3 cofactor_mat(mat3 a) {
 
 WEFT_INLINE real3 multiply_mat(mat3 a, real3 v) {
     return add_scaled(add_scaled(scale(a.x, v.x), a.y, v.y), a.z, v.z);
+}
+
+/// a^T v
+WEFT_INLINE real3 multiply_transposed_mat(mat3 a, real3 v) {
+    return make3(dot3(a.x, v), dot3(a.y, v), dot3(a.z, v));
 }
 
 WEFT_KERNELS_END

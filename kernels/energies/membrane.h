@@ -115,6 +115,31 @@ WEFT_INLINE sym3 membrane_hessian(membrane m, real2 b) {
         stiffness);
 }
 
+/// Not negative where the sheet resists all movements along n. There d2E is b_j^T (mu I + p J C^-1)
+/// b_k with C = F^T F; this is 2 J times the lower eigenvalue of the matrix in between, which is
+/// mu + p s / J, with s the square of the largest stretch.
+WEFT_INLINE real membrane_tautness(membrane m) {
+    const real squares = dot3(m.u, m.u) + dot3(m.v, m.v);
+    const real spread = squares * squares - splat(4.0f) * m.jacobian * m.jacobian;
+    const real twice_s = squares + square_root(larger(spread, splat(0.0f)));
+    return splat(2.0f) * m.mu * m.jacobian + m.pressure * twice_s;
+}
+
+/// Of corners with shape gradients b_j and b_k [N/m], so that the blocks of all corners together,
+/// with membrane_hessian() on the diagonal, are positive semi-definite: without the part with
+/// [n]_x, and movements along n couple only where the sheet
+/// is taut.
+WEFT_INLINE mat3 membrane_coupling(membrane m, real2 b_j, real2 b_k) {
+    const real3 c_j = membrane_growth(m, b_j);
+    const real3 c_k = membrane_growth(m, b_k);
+    const real stiffness = m.mu * dot2(b_j, b_k);
+    const real buckling = m.pressure * dot3(c_j, c_k) / divisor(m.jacobian);
+    const real out = membrane_tautness(m) > splat(0.0f) ? buckling : -stiffness;
+    return add_diagonal_mat(
+        add_mat(outer_mat(c_j, scale(c_k, m.lambda)), outer_mat(m.normal, scale(m.normal, out))),
+        stiffness);
+}
+
 /// d2E/dx_jdx_k [N/m], of corners with shape gradients b_j and b_k; the exact one
 WEFT_INLINE mat3 membrane_block(membrane m, real2 b_j, real2 b_k) {
     const real3 c_j = membrane_growth(m, b_j);

@@ -106,14 +106,20 @@ WEFT_INLINE sym3 tetrahedron_hessian(tetrahedron t, real3 b) {
     return add_diagonal(outer_sym(multiply_mat(t.cofactor, b), t.lambda), t.mu * dot3(b, b));
 }
 
-/// d2E/dx_jdx_k [N/m], of corners with shape gradients b_j and b_k; the exact one, which as part of
-/// a larger matrix is not always positive semi-definite
-WEFT_INLINE mat3 tetrahedron_block(tetrahedron t, real3 b_j, real3 b_k) {
+/// mu (b_j . b_k) I + lambda c_j c_k^T [N/m], of corners with shape gradients b_j and b_k: for all
+/// corners together a sum of a Gram matrix and a dyad, so positive semi-definite, and with the
+/// exact blocks on its diagonal
+WEFT_INLINE mat3 tetrahedron_coupling(tetrahedron t, real3 b_j, real3 b_k) {
     const real3 c_j = multiply_mat(t.cofactor, b_j);
     const real3 c_k = multiply_mat(t.cofactor, b_k);
+    return add_diagonal_mat(outer_mat(c_j, scale(c_k, t.lambda)), t.mu * dot3(b_j, b_k));
+}
+
+/// d2E/dx_jdx_k [N/m]; the exact one, which as part of a larger matrix is not always positive
+/// semi-definite
+WEFT_INLINE mat3 tetrahedron_block(tetrahedron t, real3 b_j, real3 b_k) {
     const real3 turn = scale(multiply_mat(t.map, cross3(b_j, b_k)), -t.pressure);
-    return add_diagonal_mat(add_mat(outer_mat(c_j, scale(c_k, t.lambda)), cross_mat(turn)),
-                            t.mu * dot3(b_j, b_k));
+    return add_mat(tetrahedron_coupling(t, b_j, b_k), cross_mat(turn));
 }
 
 WEFT_KERNELS_END

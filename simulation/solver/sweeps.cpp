@@ -16,7 +16,7 @@ SweepSolver::SweepSolver(Model& model)
       velocities_{"velocities", kVelocities, substep_.end()} {}
 
 void SweepSolver::add_sweep(const VertexLayout& layout,
-                            const std::function<Launch(const Gathered&)>& solve) {
+                            const std::function<std::vector<Launch>(const SweepTarget&)>& solve) {
     Sweep& sweep = *sweeps_.emplace_back(std::make_unique<Sweep>(model_, layout));
     sweep.seams = {"seams", kSeams, {}};
     sweep.strips = {"strips", kStrips, {}};
@@ -24,8 +24,10 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
         TaskBody& body = phase == kSeamPhase ? sweep.seams : sweep.strips;
         body.launches = sweep.slopes.gather(phase, *model_.positions);
-        body.launches.push_back(
-            solve({phase, sweep.items, sweep.slopes.sums(), substep_.targets(), inverse_h2}));
+        for (Launch& launch : solve({phase, *model_.positions, sweep.items, sweep.slopes.sums(),
+                                     substep_.targets(), inverse_h2})) {
+            body.launches.push_back(std::move(launch));
+        }
         body.taking_turns = static_cast<int>(body.launches.size());
     }
     substep_.add_contacts(sweep.strips.launches, *model_.positions);

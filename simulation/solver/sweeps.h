@@ -9,6 +9,16 @@
 
 namespace weft {
 
+/// What a block descent method's launches work on, and what they are told.
+struct SweepTarget {
+    Phase phase;
+    Buffer<float4>& positions;
+    VertexItems& items;
+    Buffer<float>& sums;  ///< of all elements, see kernels/descent/rows.h
+    Buffer<float4>& targets;
+    float inverse_h2;
+};
+
 /// What block descent methods share: Gauss-Seidel sweeps over the vertices on strips and seams.
 ///
 /// A substep: predict, then `iterations` sweeps, each
@@ -27,17 +37,10 @@ public:
 protected:
     explicit SweepSolver(Model& model);
 
-    /// What a method's launch works on, and what it is told.
-    struct Gathered {
-        Phase phase;
-        VertexItems& items;
-        Buffer<float>& sums;
-        Buffer<float4>& targets;
-        float inverse_h2;
-    };
     /// Adds a sweep; iteration i does number i modulo their number.
-    /// solve: the launch that moves vertices, over as many colours as the items have
-    void add_sweep(const VertexLayout& layout, const std::function<Launch(const Gathered&)>& solve);
+    /// solve: the launches that move vertices, over as many colours as the items have
+    void add_sweep(const VertexLayout& layout,
+                   const std::function<std::vector<Launch>(const SweepTarget&)>& solve);
 
     Model& model() { return model_; }
 

@@ -10,9 +10,10 @@ namespace {
 class VbdSolver final : public SweepSolver {
 public:
     explicit VbdSolver(Model& model) : SweepSolver(model) {
-        add_sweep(make_vertex_layout(all_stencils(model), model.strips), [&](const Gathered& g) {
-            return launch(kernels::solve_vertices, g.items.segments(g.phase), *model.positions,
-                          g.targets, g.items.vertices(), g.sums, g.items.count(), g.inverse_h2);
+        add_sweep(make_vertex_layout(all_stencils(model), model.strips), [](const SweepTarget& t) {
+            return std::vector{launch(kernels::solve_vertices, t.items.segments(t.phase),
+                                      t.positions, t.targets, t.items.vertices(), t.sums,
+                                      t.items.count(), t.inverse_h2)};
         });
     }
 };

@@ -26,23 +26,6 @@ struct VertexLayout {
     }
 };
 
-/// Stencils as items: pairs of vertices that are computed together, and vertices that are alone.
-struct StencilLayout {
-    /// Two items per stencil: in each segment the first vertices of all, then the second ones. A
-    /// vertex that is alone is both. Stencils of one phase and colour share no element.
-    VertexLayout items;
-    std::vector<int> segment_begin;           ///< of the stencils, by the items' segments
-    std::vector<std::array<int, 2>> corners;  ///< [stencils] their items
-    std::vector<int> stencils;                ///< [stencils] the pair's number, -1: alone
-};
-
-/// Pairs up as many vertices as it can, and colours and sorts the pairs. Both vertices of a pair
-/// belong to the same phase and strip.
-/// kinds   as in make_vertex_layout
-/// pairs   elements of two vertices that may become stencils, and in which order they are tried
-StencilLayout make_stencil_layout(std::span<const Stencils> kinds, const Strips& strips,
-                                  const Stencils& pairs, std::span<const int> order);
-
 /// Colours and sorts the vertices.
 /// kinds   all elements, in new vertices; the strips were made with extra_levels >= 1
 VertexLayout make_vertex_layout(std::span<const Stencils> kinds, const Strips& strips);

@@ -76,9 +76,11 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
     assert left_out["bending"]["kernels"] == [
         "gather_bending", "gather_bending_forces", "hinge_terms", "project_hinges"]
     assert left_out["solids"]["kernels"] == [
-        "gather_tetrahedra", "gather_tetrahedra_forces", "project_tetrahedra", "tetrahedron_terms"]
+        "gather_tetrahedra", "gather_tetrahedra_forces", "project_tetrahedra",
+        "solve_tetrahedron_stencils", "tetrahedron_terms"]
     assert left_out["membranes"]["kernels"] == [
-        "gather_membrane_forces", "gather_membranes", "membrane_terms", "project_membranes"]
+        "gather_membrane_forces", "gather_membranes", "membrane_terms", "project_membranes",
+        "solve_membrane_stencils"]
     assert "attachments" in left_out
     assert left_out["moving pins"]["kernels"] == ["move_pins"]
     assert "rub_on_sphere" in left_out["obstacles"]["kernels"]
@@ -102,10 +104,21 @@ def test_solids_alone_need_nothing_of_cloth(inspect):
     assert not [name for name in buffers if name.startswith(("springs", "membranes", "hinges"))]
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert left_out["springs"]["kernels"] == [
-        "gather_spring_forces", "gather_springs", "project_springs", "spring_terms"]
+        "gather_spring_forces", "gather_springs", "project_springs", "solve_spring_stencils",
+        "spring_terms"]
     energies = next(d for d in found["datasets"] if d["name"] == "energies")
     assert energies["columns"] == ["frame", "kinetic", "gravity", "solid", "total"]
     assert found["triangles"] == 2 * 2 * (10 * 2 + 10 * 2 + 2 * 2)
+
+
+def test_stencils_are_of_the_elements_that_are_there(inspect):
+    def stencils(text):
+        found = inspect(text, "--solver", "sosd")
+        return [name for name in names(found["kernels"]) if name.endswith("_stencils")]
+
+    assert stencils(SHEET) == ["solve_spring_stencils"]
+    assert stencils(SOLID) == ["solve_tetrahedron_stencils"]
+    assert set(stencils(ATTACHED)) >= {"solve_membrane_stencils", "solve_tetrahedron_stencils"}
 
 
 def test_attachments_are_springs(inspect):

@@ -4,7 +4,10 @@
 #include "kernels/descent/gather_springs.h"
 #include "kernels/descent/gather_tetrahedra.h"
 #include "kernels/descent/substep.h"
-#include "kernels/sosd/solve.h"
+#include "kernels/sosd/alone.h"
+#include "kernels/sosd/membranes.h"
+#include "kernels/sosd/springs.h"
+#include "kernels/sosd/tetrahedra.h"
 #include "kernels/vbd/solve.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -143,25 +146,52 @@ void solve_case(KernelCase& c) {
                       c.items, 1e2f);
 }
 
-void stencils_case(KernelCase& c) {
-    const int items = 2 * c.items;
+/// Stencils of so many corners; `tables` adds the buffers of their elements.
+template <class Kernel, class... Tables>
+void stencils_case(KernelCase& c, Kernel kernel, int corner_count, Tables... tables) {
+    const int items = corner_count * c.items;
     auto& positions = c.add<float4>("positions", items);
     auto& targets = c.add<float4>("targets", items);
     auto& vertices = c.add<int>("vertices", items);
     auto& corners = c.add<int>("corners", items);
-    auto& material = add_reals(c, "material", items, 0.0f, 2.0f);
     auto& sums = add_reals(c, "sums", 9 * items, -1.0f, 1.0f);
     const std::vector<int> order = c.random.permutation(items);
     for (int i = 0; i < items; ++i) {
-        positions[at(i)] = c.random.point(c.flavour == Flavour::kRandom ? 1.0f : 0.0f);
+        // Degenerate: all in one point, and some with neither stiffness nor force.
+        const bool is_point = c.flavour == Flavour::kDegenerate;
+        positions[at(i)] = c.random.point(is_point ? 0.0f : 1.0f);
         positions[at(i)].w = c.random.integer(0, 5) == 0 ? 0.0f : c.random.real(0.1f, 10.0f);
-        targets[at(i)] = c.random.point(1.0f);
+        targets[at(i)] = is_point ? positions[at(i)] : c.random.point(1.0f);
         vertices[at(i)] = order[at(i)];
         corners[at(i)] = i;
         for (const int diagonal : {3, 6, 8}) sums[at(i + diagonal * items)] = 5.0f;
+        for (int k = 0; k < 9; ++k) {
+            if (is_point && i % 2 == 0) sums[at(i + k * items)] = 0.0f;
+        }
     }
-    c.launch = launch(kernels::solve_stencils, c.segments, positions, targets, vertices, corners,
-                      material, sums, c.items, items, 1e2f);
+    c.launch = launch(kernel, c.segments, positions, targets, vertices, corners, tables(c)..., sums,
+                      c.items, items, 1e2f);
+}
+
+void lone_case(KernelCase& c) { stencils_case(c, kernels::solve_lone_vertices, 1); }
+
+Buffer<float>& add_material(KernelCase& c) {
+    return add_reals(c, "material", 2 * c.items, 0.0f, 2.0f);
+}
+void spring_stencils_case(KernelCase& c) {
+    stencils_case(c, kernels::solve_spring_stencils, 2, add_material);
+}
+void membrane_stencils_case(KernelCase& c) {
+    const auto add_shape = [](KernelCase & d) -> auto& {
+        return add_reals(d, "shape", 4 * d.items, -3.0f, 3.0f);
+    };
+    stencils_case(c, kernels::solve_membrane_stencils, 3, add_shape, add_material);
+}
+void tetrahedron_stencils_case(KernelCase& c) {
+    const auto add_shape = [](KernelCase & d) -> auto& {
+        return add_reals(d, "shape", 9 * d.items, -3.0f, 3.0f);
+    };
+    stencils_case(c, kernels::solve_tetrahedron_stencils, 4, add_shape, add_material);
 }
 
 void begin_case(KernelCase& c) {
@@ -207,7 +237,10 @@ const bool added =
     add_case("gather_membranes", membranes_case) &&
     add_case("gather_tetrahedra_forces", tetrahedra_forces_case) &&
     add_case("gather_membrane_forces", membrane_forces_case) &&
-    add_case("solve_vertices", solve_case) && add_case("solve_stencils", stencils_case) &&
+    add_case("solve_vertices", solve_case) && add_case("solve_lone_vertices", lone_case) &&
+    add_case("solve_spring_stencils", spring_stencils_case) &&
+    add_case("solve_membrane_stencils", membrane_stencils_case) &&
+    add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&
     add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
     add_case("copy_positions", copy_case) && add_case("push_targets", push_case);
 

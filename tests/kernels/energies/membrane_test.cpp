@@ -172,6 +172,55 @@ TEST(Membrane, VertexBlocksAreThePositivePartOfTheDiagonal) {
     EXPECT_TRUE(was_indefinite) << "it is projected for a use";
 }
 
+/// The blocks that a stencil's system is made of.
+MatrixXd coupled(const Rest& rest, const VectorXd& x) {
+    const kernels::membrane m = rest.at(x);
+    MatrixXd all(9, 9);
+    for (int j = 0; j < 3; ++j) {
+        for (int k = 0; k < 3; ++k) {
+            all.block<3, 3>(3 * j, 3 * k) =
+                j == k ? to_eigen(kernels::membrane_hessian(m, rest.b(k)))
+                       : to_eigen(kernels::membrane_coupling(m, rest.b(j), rest.b(k)));
+        }
+    }
+    return all;
+}
+
+TEST(Membrane, CouplingIsPositiveTogetherWithTheVertexBlocks) {
+    std::mt19937 engine(10);
+    int taut = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const Rest rest(engine, 1.0, trial % 2 == 0 ? 2.0 : 1e3);
+        const VectorXd x = rest.deformed(random_map(engine));
+        EXPECT_GT(least_eigenvalue(coupled(rest, x)), -1e-13);
+        taut += kernels::membrane_tautness(rest.at(x)) > 0.0;
+    }
+    EXPECT_GT(taut, 20);
+    EXPECT_LT(taut, 380);
+}
+
+/// And its normal part says where it is positive.
+TEST(Membrane, CouplingAlongTheNormalIsExactWhereTaut) {
+    std::mt19937 engine(11);
+    for (int trial = 0; trial < 100; ++trial) {
+        const Rest rest(engine, 2.0, 5.0);
+        const VectorXd x = rest.deformed(stretched(0.6 + 0.01 * trial, 1.3));
+        const kernels::membrane m = rest.at(x);
+        const Eigen::Vector3d n = to_eigen(m.normal);
+        MatrixXd normal(9, 3);  // movements of each corner along n
+        for (int k = 0; k < 3; ++k) {
+            normal.col(k).setZero();
+            normal.col(k).segment<3>(3 * k) = n;
+        }
+        const MatrixXd exact = normal.transpose() * element_of(rest).hessian(x) * normal;
+        const bool positive = least_eigenvalue(exact) > -1e-12;
+        EXPECT_EQ(positive, kernels::membrane_tautness(m) > 0.0) << trial;
+        if (!positive) continue;
+        const MatrixXd ours = normal.transpose() * coupled(rest, x) * normal;
+        EXPECT_LT((ours - exact).norm(), 1e-12 * element_of(rest).hessian(x).norm());
+    }
+}
+
 TEST(Membrane, ForcesAreInternal) {
     std::mt19937 engine(8);
     for (int trial = 0; trial < 100; ++trial) {

@@ -184,6 +184,43 @@ TEST(Tetrahedron, VertexBlocksAreTheDiagonalAndPositive) {
     }
 }
 
+/// The blocks that a stencil's system is made of, for all pairs of corners.
+MatrixXd coupled(const Rest& rest, const VectorXd& x) {
+    MatrixXd all(12, 12);
+    for (int j = 0; j < 4; ++j) {
+        for (int k = 0; k < 4; ++k) {
+            all.block<3, 3>(3 * j, 3 * k) =
+                to_eigen(kernels::tetrahedron_coupling(rest.at(x), rest.b(j), rest.b(k)));
+        }
+    }
+    return all;
+}
+
+TEST(Tetrahedron, CouplingIsPositiveWithTheVertexBlocksOnItsDiagonal) {
+    std::mt19937 engine(8);
+    for (int trial = 0; trial < 200; ++trial) {
+        const Rest rest = random_rest(engine, 1.0, trial % 2 == 0 ? 2.0 : 1e4);
+        const Matrix3d F = trial < 10 ? special_maps()[static_cast<std::size_t>(trial)].second
+                                      : Matrix3d(random_map(engine));
+        const VectorXd x = rest.deformed(F);
+        const MatrixXd all = coupled(rest, x);
+        EXPECT_GT(least_eigenvalue(all), -1e-14);
+        for (int k = 0; k < 4; ++k) {
+            const MatrixXd block = to_eigen(kernels::tetrahedron_hessian(rest.at(x), rest.b(k)));
+            EXPECT_LT(relative_difference(all.block<3, 3>(3 * k, 3 * k), block), 1e-13);
+        }
+    }
+}
+
+TEST(Tetrahedron, CouplingIsExactWithoutPressure) {
+    std::mt19937 engine(9);
+    const Rest rest = random_rest(engine, 3.0, 20.0);
+    // p = lambda (J - 1) - mu = 0
+    const Matrix3d F = Eigen::Vector3d(1.15, 1.0, 1.0).asDiagonal();
+    const VectorXd x = rest.deformed(F);
+    EXPECT_LT(relative_difference(coupled(rest, x), element_of(rest).hessian(x)), 1e-12);
+}
+
 TEST(Tetrahedron, ForcesAreInternal) {
     std::mt19937 engine(7);
     for (int trial = 0; trial < 100; ++trial) {

@@ -32,6 +32,7 @@ const TestScene kScenes[] = {
     {"VbdSolids", kSolids, Method::kVbd, "806f7b6b2ccfcb25eb23bcbb08da7cf3"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"SosdEverything", kEverything, Method::kSosd, "dd50b25d1b82b1662d56144e38caedd9"},
+    {"SosdSolids", kSolids, Method::kSosd, "702bcf436c5866179943171afbf2c300"},
     {"SosdSpringsOnly", kSpringsOnly, Method::kSosd, "00dfd70c45689a281240dc02e561cdee"},
     {"JpgdEverything", kEverything, Method::kJpgd, "8c506120e1bf06accd014070196bdaf6"},
     {"JpgdSolids", kSolids, Method::kJpgd, "e339e03a1a91c4e4a6065882a1dda2b3"},

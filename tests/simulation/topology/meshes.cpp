@@ -140,6 +140,14 @@ TopologyMesh tetrahedra_block(int x, int y, int z) {
     return {"tetrahedra", (x + 1) * (y + 1) * (z + 1), {tetrahedra}};
 }
 
+std::vector<Stencils> in_new_vertices(const TopologyMesh& mesh, const Strips& strips) {
+    std::vector<Stencils> kinds = mesh.kinds;
+    for (Stencils& kind : kinds) {
+        for (int& v : kind.vertices) v = strips.rank[static_cast<std::size_t>(v)];
+    }
+    return kinds;
+}
+
 std::vector<TopologyMesh> all_meshes() {
     std::vector<TopologyMesh> meshes{
         {"nothing", 0, {}},

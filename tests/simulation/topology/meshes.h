@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulation/topology/stencils.h"
+#include "simulation/topology/strips.h"
 
 namespace weft::test {
 
@@ -28,6 +29,9 @@ TopologyMesh shuffled_cloth(std::string name, int vertex_count, Triangles triang
 TopologyMesh chain(int vertex_count);
 /// A block of cubes, five tetrahedra each.
 TopologyMesh tetrahedra_block(int x, int y, int z);
+
+/// The mesh's elements, in the strips' order of vertices.
+std::vector<Stencils> in_new_vertices(const TopologyMesh& mesh, const Strips& strips);
 
 /// One of each shape that has ever been awkward.
 std::vector<TopologyMesh> all_meshes();

@@ -3,21 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 
 #include "tests/simulation/topology/meshes.h"
 
 namespace weft::test {
 namespace {
-
-std::vector<Stencils> in_new_vertices(const TopologyMesh& mesh, const Strips& strips) {
-    std::vector<Stencils> kinds = mesh.kinds;
-    for (Stencils& kind : kinds) {
-        for (int& v : kind.vertices) v = strips.rank[static_cast<std::size_t>(v)];
-    }
-    return kinds;
-}
 
 struct Place {
     int phase = -1;
@@ -83,51 +73,6 @@ TEST(VertexLayout, KeepsItsInvariantsOnEveryMesh) {
                 {.target_strips = target, .min_vertices_per_strip = 1, .extra_levels = 1});
             const auto kinds = in_new_vertices(mesh, strips);
             expect_valid(kinds, strips, make_vertex_layout(kinds, strips));
-        }
-    }
-}
-
-TEST(StencilLayout, PairsAreIndependentAndEveryVertexIsThere) {
-    for (const TopologyMesh& mesh : all_meshes()) {
-        SCOPED_TRACE(mesh.name);
-        const Strips strips = make_strips(mesh.vertex_count, mesh.kinds,
-                                          {.min_vertices_per_strip = 1, .extra_levels = 1});
-        const auto kinds = in_new_vertices(mesh, strips);
-        if (kinds.empty() || kinds[0].arity != 2) continue;
-        std::vector<int> order(static_cast<std::size_t>(kinds[0].count()));
-        std::iota(order.begin(), order.end(), 0);
-        const StencilLayout layout = make_stencil_layout(kinds, strips, kinds[0], order);
-
-        std::vector<int> stencil_of(strips.order.size(), -1);
-        std::vector<int> segment_of(strips.order.size(), -1);
-        for (std::size_t s = 0; s + 1 < layout.segment_begin.size(); ++s) {
-            ASSERT_EQ(layout.items.segment_begin[s], 2 * layout.segment_begin[s]);
-            for (int i = layout.segment_begin[s]; i < layout.segment_begin[s + 1]; ++i) {
-                const auto stencil = static_cast<std::size_t>(i);
-                const auto [first, second] = layout.corners[stencil];
-                const int a = layout.items.vertices[static_cast<std::size_t>(first)];
-                const int b = layout.items.vertices[static_cast<std::size_t>(second)];
-                const int pair = layout.stencils[stencil];
-                EXPECT_EQ(pair < 0, a == b);
-                if (pair >= 0) {
-                    EXPECT_TRUE(std::ranges::is_permutation(kinds[0][pair], std::array{a, b}));
-                }
-                for (const int v : {a, b}) {
-                    stencil_of[static_cast<std::size_t>(v)] = i;
-                    segment_of[static_cast<std::size_t>(v)] = static_cast<int>(s);
-                }
-            }
-        }
-        EXPECT_EQ(std::ranges::count(stencil_of, -1), 0);
-        for (const Stencils& kind : kinds) {
-            for (int e = 0; e < kind.count(); ++e) {
-                for (const int v : kind[e]) {
-                    const auto a = static_cast<std::size_t>(kind[e][0]);
-                    const auto b = static_cast<std::size_t>(v);
-                    if (segment_of[a] != segment_of[b]) continue;
-                    EXPECT_EQ(stencil_of[a], stencil_of[b]) << "neighbours of one colour";
-                }
-            }
         }
     }
 }

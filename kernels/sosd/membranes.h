@@ -1,0 +1,44 @@
+#ifndef WEFT_KERNELS_SOSD_MEMBRANES_H
+#define WEFT_KERNELS_SOSD_MEMBRANES_H
+
+#include "kernels/energies/membrane.h"
+#include "kernels/sosd/stencil.h"
+
+WEFT_KERNELS_BEGIN
+
+/// Moves the three vertices of each stencil, a triangle of a membrane, towards the minimum of their
+/// common quadratic model of E while all others stand still.
+/// shape     [4 * stencils] column-major: b_1, b_2 [1/m]
+/// material  [2 * stencils] column-major: mu, lambda, times the rest area [J]
+/// For the others see stencil.h.
+WEFT_KERNEL(solve_membrane_stencils, WEFT_GLOBAL float4* positions,
+            WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const int* vertices,
+            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float* shape,
+            WEFT_GLOBAL const float* material, WEFT_GLOBAL const float* sums, int stencil_count,
+            int item_count, float inverse_h2) {
+    stencil s;
+    for (int k = 0; k < 3; ++k) {
+        s.corner[k] =
+            load_system(positions, targets, vertices, sums,
+                        corner_items(corners, i, stencil_count, k), item_count, inverse_h2);
+    }
+    real2 b[3];
+    b[1] = make2(load(shape, i), load(shape, column(i, stencil_count, 1)));
+    b[2] =
+        make2(load(shape, column(i, stencil_count, 2)), load(shape, column(i, stencil_count, 3)));
+    b[0] = make2(-(b[1].u + b[2].u), -(b[1].v + b[2].v));
+    const membrane m =
+        make_membrane(xyz(s.corner[0].x), xyz(s.corner[1].x), xyz(s.corner[2].x), b[1], b[2],
+                      load(material, i), load(material, column(i, stencil_count, 1)));
+    for (int k = 1; k < 3; ++k) {
+        for (int j = 0; j < k; ++j) {
+            s.coupling[k * (k - 1) / 2 + j] = membrane_coupling(m, b[j], b[k]);
+        }
+    }
+    const stencil_vector step = solve_stencil(s, 3);
+    for (int k = 0; k < 3; ++k) move_vertex(positions, s.corner[k], step.at[k]);
+}
+
+WEFT_KERNELS_END
+
+#endif
