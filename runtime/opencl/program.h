@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "runtime/launch.h"
 #include "runtime/opencl/api.h"
@@ -14,13 +15,17 @@ enum class EntryStyle {
     kPerColour,  ///< one work-item per item, one launch per kernel and colour: for GPUs
 };
 
-/// Names of entry points: "body_<b>" (per strip) or "launch_<b>_<l>" (per colour).
-std::string entry_name(std::size_t body);
-std::string entry_name(std::size_t body, std::size_t launch);
+struct ProgramText {
+    std::string text;
+    /// [body] names of its entry points: one (per strip), or one per launch (per colour). Bodies
+    /// and launches that do the same with other arguments share them: building a kernel takes a
+    /// driver seconds.
+    std::vector<std::vector<std::string>> entries;
+};
 
 /// OpenCL C for all kernels that the bodies launch, and the entry points that loop over their
 /// items. Nothing else is in it: a kernel that no body names is not compiled.
-std::string program_text(std::span<const TaskBody* const> bodies, EntryStyle style);
+ProgramText program_text(std::span<const TaskBody* const> bodies, EntryStyle style);
 
 struct BuildOptions {
     int lanes = 1;

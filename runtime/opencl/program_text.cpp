@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -113,7 +114,9 @@ std::string segment_of(std::size_t launch) {
            " + strip * colours" + l + " + colour;\n";
 }
 
-/// One colour of the strip.
+/// One colour of the strip. The mask tells the compiler that the last lanes are fewer than
+/// WEFT_LANES, so that it drops the path of whole lanes there: PoCL then builds vertex block
+/// descent over tetrahedra in 10 s instead of 24 s.
 void per_strip_items(std::ostream& out, const Launch& launch, std::size_t l) {
     out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n"
         << "        int end = segment[1];\n"
@@ -122,7 +125,7 @@ void per_strip_items(std::ostream& out, const Launch& launch, std::size_t l) {
     call_kernel(out, launch, l);
     out << "\n        }\n"
         << "        if (begin < end) {\n"
-        << "            item i = {begin, end - begin};\n            ";
+        << "            item i = {begin, (end - begin) & (WEFT_LANES - 1)};\n            ";
     call_kernel(out, launch, l);
     out << "\n        }\n    }\n";
 }
@@ -134,9 +137,10 @@ void per_strip_loop(std::ostream& out, const TaskBody& body, std::size_t first, 
     out << "    }\n";
 }
 
-void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number) {
-    out << "__kernel __attribute__((reqd_work_group_size(1, 1, 1)))\n"
-        << "void " << entry_name(number) << "(";
+/// What follows the name of a body's entry point.
+std::string per_strip_entry(const TaskBody& body) {
+    std::ostringstream out;
+    out << "(";
     for (std::size_t l = 0; l < body.launches.size(); ++l) {
         declare_parameters(out, body.launches[l], l);
         out << segment_parameters(l);
@@ -147,44 +151,63 @@ void per_strip_entry(std::ostream& out, const TaskBody& body, std::size_t number
     if (turns > 0) per_strip_loop(out, body, 0, turns);
     for (std::size_t l = turns; l < body.launches.size(); ++l) per_strip_loop(out, body, l, l + 1);
     out << "}\n\n";
+    return out.str();
 }
 
-/// Work-items (item, strip); in strips with fewer items than the largest, some have nothing to do.
-void per_colour_entry(std::ostream& out, const Launch& launch, std::size_t body,
-                      std::size_t number) {
-    out << "__kernel void " << entry_name(body, number) << "(";
-    declare_parameters(out, launch, number);
-    out << segment_parameters(number)
-        << "int colour, int first_strip, int instance, int iteration) {\n"
+/// What follows the name of a launch's entry point. Work-items (item, strip); in strips with fewer
+/// items than the largest, some have nothing to do.
+std::string per_colour_entry(const Launch& launch) {
+    std::ostringstream out;
+    out << "(";
+    declare_parameters(out, launch, 0);
+    out << segment_parameters(0) << "int colour, int first_strip, int instance, int iteration) {\n"
         << "    int strip = first_strip + (int)get_global_id(1);\n"
-        << segment_of(number)
-        << "    int first = segment[0] + (int)get_global_id(0) * WEFT_LANES;\n"
+        << segment_of(0) << "    int first = segment[0] + (int)get_global_id(0) * WEFT_LANES;\n"
         << "    if (first >= segment[1]) return;\n"
         << "    item i = {first, min(segment[1] - first, WEFT_LANES)};\n    ";
-    call_kernel(out, launch, number);
+    call_kernel(out, launch, 0);
     out << "\n}\n\n";
+    return out.str();
 }
+
+/// Entry points, each once, whatever number of bodies want it.
+class EntryPoints {
+public:
+    /// Gives its name.
+    std::string add(const std::string& attributes, const std::string& definition) {
+        const auto [known, is_new] =
+            names_.try_emplace(definition, "entry_" + std::to_string(names_.size()));
+        if (is_new) out_ << "__kernel " << attributes << "void " << known->second << definition;
+        return known->second;
+    }
+    std::string text() const { return out_.str(); }
+
+private:
+    std::map<std::string, std::string> names_;
+    std::ostringstream out_;
+};
 
 }  // namespace
 
-std::string entry_name(std::size_t body) { return "body_" + std::to_string(body); }
-
-std::string entry_name(std::size_t body, std::size_t launch) {
-    return "launch_" + std::to_string(body) + "_" + std::to_string(launch);
-}
-
-std::string program_text(std::span<const TaskBody* const> bodies, EntryStyle style) {
+ProgramText program_text(std::span<const TaskBody* const> bodies, EntryStyle style) {
     HeaderText headers;
-    std::ostringstream entries;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        for (std::size_t l = 0; l < bodies[b]->launches.size(); ++l) {
-            const Launch& launch = bodies[b]->launches[l];
+    EntryPoints entries;
+    ProgramText program;
+    for (const TaskBody* body : bodies) {
+        std::vector<std::string>& names = program.entries.emplace_back();
+        for (const Launch& launch : body->launches) {
             headers.add(launch.kernel->file);
-            if (style == EntryStyle::kPerColour) per_colour_entry(entries, launch, b, l);
+            if (style == EntryStyle::kPerColour) {
+                names.push_back(entries.add("", per_colour_entry(launch)));
+            }
         }
-        if (style == EntryStyle::kPerStrip) per_strip_entry(entries, *bodies[b], b);
+        if (style == EntryStyle::kPerStrip) {
+            names.push_back(entries.add("__attribute__((reqd_work_group_size(1, 1, 1)))\n",
+                                        per_strip_entry(*body)));
+        }
     }
-    return headers.text() + "#line 1 \"entry points\"\n" + entries.str();
+    program.text = headers.text() + "#line 1 \"entry points\"\n" + entries.text();
+    return program;
 }
 
 }  // namespace weft

@@ -45,10 +45,10 @@ OpenClStream::OpenClStream(const OpenClTarget& target, std::span<const TaskBody*
     try {
         queue_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
         copies_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
-        const cl::Program program =
-            build_program(target.context, target.device, program_text(bodies, target.style),
-                          {target.info.lanes, target.strict});
-        for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], b);
+        const ProgramText text = program_text(bodies, target.style);
+        const cl::Program program = build_program(target.context, target.device, text.text,
+                                                  {target.info.lanes, target.strict});
+        for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], text.entries[b]);
     } catch (const cl::Error& error) {
         throw opencl_error("preparing " + target_.info.name, error);
     }
@@ -97,14 +97,13 @@ cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
     return index;
 }
 
-void OpenClStream::bind(const cl::Program& program, const TaskBody& body, std::size_t number) {
+void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
+                        const std::vector<std::string>& entries) {
     BoundBody bound{&body, {}};
-    const bool per_strip = target_.style == EntryStyle::kPerStrip;
     for (std::size_t l = 0; l < body.launches.size(); ++l) {
         const Launch& launch = body.launches[l];
-        if (l == 0 || !per_strip) {
-            const std::string name = per_strip ? entry_name(number) : entry_name(number, l);
-            bound.entries.push_back({cl::Kernel(program, name.c_str())});
+        if (l < entries.size()) {
+            bound.entries.push_back({cl::Kernel(program, entries[l].c_str())});
         }
         Entry& entry = bound.entries.back();
         entry.dynamic = set_launch_arguments(entry.kernel, entry.dynamic, launch);

@@ -65,7 +65,8 @@ private:
     const cl::Buffer& memory_of(BufferStorage& buffer);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
-    void bind(const cl::Program& program, const TaskBody& body, std::size_t number);
+    void bind(const cl::Program& program, const TaskBody& body,
+              const std::vector<std::string>& entries);
     void run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                     Running& running);
     void run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
