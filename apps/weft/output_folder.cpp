@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/error.h"
+#include "simulation/output/checkpoint.h"
 #include "simulation/output/geometry_writer.h"
 
 namespace weft {
@@ -74,8 +75,8 @@ void OutputFolder::claim(bool resume) {
         remove(checkpoint());
         forget_before();
     }
-    for (const fs::path& old :
-         {summary(), trace(), geometry(), GeometryWriter::xdmf_path(geometry())}) {
+    for (const fs::path& old : {unfinished_checkpoint(checkpoint()), summary(), trace(), geometry(),
+                                GeometryWriter::xdmf_path(geometry())}) {
         remove(old);
     }
 }

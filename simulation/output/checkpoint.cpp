@@ -16,9 +16,13 @@ constexpr const char* kEnd = "end";
 
 }  // namespace
 
+std::filesystem::path unfinished_checkpoint(const std::filesystem::path& path) {
+    return path.string() + ".part";
+}
+
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint) {
-    const std::filesystem::path part = path.string() + ".part";
+    const std::filesystem::path part = unfinished_checkpoint(path);
     errno = 0;
     {
         std::ofstream out(part, std::ios::binary);

@@ -19,6 +19,9 @@ struct Checkpoint {
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint);
 
+/// Where a checkpoint is written until it is whole; what a killed run left there is of no use.
+std::filesystem::path unfinished_checkpoint(const std::filesystem::path& path);
+
 /// None if the file is missing. Throws UserError if it is no checkpoint, is damaged, or was made
 /// from something else.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,

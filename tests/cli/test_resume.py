@@ -87,6 +87,7 @@ def test_killed_while_it_takes_over(folder):
     for name in ["trace.h5", "frames.vtkhdf"]:
         (out / name).rename(out / f"{name}.before")
         (out / name).write_bytes(b"half")
+    (out / "checkpoint.part").write_bytes(b"half")
     assert run(folder, "--resume").returncode == 0
     expect_whole_run(folder)
 

@@ -39,7 +39,7 @@ def weft(*arguments, cwd=None, stdout=subprocess.PIPE, launcher=(), **options):
     """Runs weft to its end, by way of a launcher if given; text of both streams is captured."""
     command = [*launcher, WEFT, *map(str, arguments)]
     return subprocess.run(command, cwd=cwd, stdout=stdout, stderr=subprocess.PIPE, text=True,
-                          timeout=120, **options)
+                          timeout=600, **options)
 
 
 def weft_json(*arguments, **options):
