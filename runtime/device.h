@@ -78,9 +78,11 @@ public:
     virtual Completion* submit(const Submission& submission) = 0;
     /// Lets everything submitted so far run.
     virtual void flush() = 0;
-    /// Waits for everything; throws RunError if the device failed. Gives the times of all tasks,
-    /// and of all copies in the order in which they were asked for.
-    virtual void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) = 0;
+    /// Waits for everything; throws RunError if the device failed.
+    virtual void finish() = 0;
+    /// After finish(): when all tasks ran, and all copies in the order in which they were asked
+    /// for.
+    virtual void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) = 0;
 
     // Only for devices that do not work in the host's memory.
     virtual Completion* to_device(BufferStorage&, ElementSpan,

@@ -197,15 +197,19 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
             drain();
             throw DeviceLost(run.at(), error.what());
         }
-        for (std::size_t d = 0; d < streams_.size(); ++d) {
+        // The first device last: its core is the one that submits.
+        for (std::size_t d = streams_.size(); d-- > 0;) {
             on(d, [&] { streams_[d]->flush(); });
         }
     }
-    times.tasks.resize(streams_.size());
     for (std::size_t d = 0; d < streams_.size(); ++d) {
-        on(d, [&] { streams_[d]->finish(times.tasks[d], copy_times[d]); });
+        on(d, [&] { streams_[d]->finish(); });
     }
     times.end = clock();
+    times.tasks.resize(streams_.size());
+    for (std::size_t d = 0; d < streams_.size(); ++d) {
+        on(d, [&] { streams_[d]->times(times.tasks[d], copy_times[d]); });
+    }
     times.copies = run.copies(copy_times);
     return times;
 }
@@ -222,8 +226,6 @@ void Executor::on(std::size_t device, Call call) {
 
 /// After a failure: streams wait for each other's completions, so all have to end before one goes.
 void Executor::drain() {
-    std::vector<TaskTime> tasks;
-    std::vector<TimeSpan> copies;
     const auto each = [&](auto call) {
         for (const auto& stream : streams_) {
             try {
@@ -234,7 +236,7 @@ void Executor::drain() {
         }
     };
     each([](DeviceStream& stream) { stream.flush(); });
-    each([&](DeviceStream& stream) { stream.finish(tasks, copies); });
+    each([](DeviceStream& stream) { stream.finish(); });
 }
 
 void Executor::host_wrote(BufferStorage& buffer) {

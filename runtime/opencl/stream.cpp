@@ -227,10 +227,17 @@ TimeSpan OpenClStream::time_of(const Commands& commands, double offset) const {
             static_cast<double>(end) * kNanosecond + offset};
 }
 
-void OpenClStream::finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) {
+void OpenClStream::finish() {
     try {
         copies_.finish();
         queue_.finish();
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name, error);
+    }
+}
+
+void OpenClStream::times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) {
+    try {
         if (first_command_() == nullptr) return;
         // Both clocks were read within a microsecond of each other when the first command was
         // enqueued; so their difference is known anew every frame, and cannot drift.

@@ -29,7 +29,8 @@ public:
     void begin(double epoch) override;
     Completion* submit(const Submission& submission) override;
     void flush() override;
-    void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override;
+    void finish() override;
+    void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override;
     Completion* to_device(BufferStorage& buffer, ElementSpan span,
                           std::span<Completion* const> waits) override;
     Completion* to_host(BufferStorage& buffer, ElementSpan span,

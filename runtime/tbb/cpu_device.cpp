@@ -160,31 +160,40 @@ public:
         const std::lock_guard lock(mutex_);
         jobs_.clear();
         times_.clear();
+        released_ = 0;
         finished_ = 0;
         epoch_ = epoch;
     }
 
     Completion* submit(const Submission& s) override {
-        std::unique_lock lock(mutex_);  // the worker reads jobs_ while it grows
+        const std::lock_guard lock(mutex_);  // the worker reads jobs_ while it grows
         Job& job = jobs_.emplace_back();
         job.body = &find(s.task->body);
         job.task = s.task;
         job.number = s.number;
         job.instance = s.instance;
         job.waits.assign(s.waits.begin(), s.waits.end());
-        lock.unlock();
-        changed_.notify_one();
         return &job.completion;
     }
 
-    /// Jobs start as they come: nothing is held back.
-    void flush() override {}
+    /// Jobs wait for this: a worker that starts at once takes its core from the thread that
+    /// submits, and the other devices get their first task a millisecond late.
+    void flush() override {
+        {
+            const std::lock_guard lock(mutex_);
+            released_ = jobs_.size();
+        }
+        changed_.notify_one();
+    }
 
-    void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>&) override {
+    void finish() override {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return finished_ == jobs_.size(); });
-        tasks.insert(tasks.end(), times_.begin(), times_.end());
         if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
+
+    void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>&) override {
+        tasks.insert(tasks.end(), times_.begin(), times_.end());
     }
 
     // This device works in the host's memory: there is nothing to copy.
@@ -211,7 +220,7 @@ private:
         });
         std::unique_lock lock(mutex_);
         while (true) {
-            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < jobs_.size(); });
+            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < released_; });
             if (stop.stop_requested()) return;
             Job& job = jobs_[finished_];
             lock.unlock();
@@ -253,7 +262,8 @@ private:
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Job> jobs_;  // a deque: jobs never move
+    std::deque<Job> jobs_;      // a deque: jobs never move
+    std::size_t released_ = 0;  ///< how many of them may run
     std::size_t finished_ = 0;
     std::vector<TaskTime> times_;
     std::exception_ptr failure_;

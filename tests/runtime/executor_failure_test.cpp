@@ -60,10 +60,11 @@ public:
             for (std::size_t i = 0; i < count; ++i) completions_[i].set_done();
         });
     }
-    void finish(std::vector<TaskTime>&, std::vector<TimeSpan>&) override {
+    void finish() override {
         stop();
         if (when_ == When::kFinish) throw RunError("lost in finish");
     }
+    void times(std::vector<TaskTime>&, std::vector<TimeSpan>&) override {}
     Completion* to_device(BufferStorage&, ElementSpan, std::span<Completion* const>) override {
         return nullptr;
     }

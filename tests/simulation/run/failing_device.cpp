@@ -13,9 +13,12 @@ public:
     void begin(double epoch) override { inner_->begin(epoch); }
     Completion* submit(const Submission& submission) override { return inner_->submit(submission); }
     void flush() override { inner_->flush(); }
-    void finish(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override {
-        inner_->finish(tasks, copies);
+    void finish() override {
+        inner_->finish();
         if (--batches_ < 0) throw RunError("clFinish failed: CL_OUT_OF_RESOURCES (-5)");
+    }
+    void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override {
+        inner_->times(tasks, copies);
     }
     Completion* to_device(BufferStorage& buffer, ElementSpan span,
                           std::span<Completion* const> waits) override {
