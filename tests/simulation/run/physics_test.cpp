@@ -5,20 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "simulation/scene/read_scene.h"
-#include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/physics.h"
 
 namespace weft::test {
 namespace {
-
-class EverySolver : public testing::TestWithParam<Method> {
-protected:
-    static Scene scene_of(const std::string& text) {
-        Scene scene = parse_scene(text, "test.toml");
-        scene.solver.method = GetParam();
-        return scene;
-    }
-};
 
 const std::string kSheet = R"(
 [scene]
@@ -34,26 +24,6 @@ stretch = { stiffness = 1.0e3 }
 bend = { stiffness = 1.0e-3 }
 )";
 
-Vec3 at(const std::vector<float>& values, int vertex) {
-    const float* v = &values[3 * static_cast<std::size_t>(vertex)];
-    return {v[0], v[1], v[2]};
-}
-std::vector<float> positions(const ManualRun& run) {
-    return run.in_scene_order(*run.model->positions);
-}
-std::vector<float> velocities(const ManualRun& run) {
-    return run.in_scene_order(*run.model->velocities);
-}
-
-/// The largest distance between corresponding vertices.
-double difference(const std::vector<float>& a, const std::vector<float>& b) {
-    double most = 0.0;
-    for (int v = 0; v < static_cast<int>(a.size() / 3); ++v) {
-        most = std::max(most, length(at(a, v) - at(b, v)));
-    }
-    return most;
-}
-
 TEST_P(EverySolver, FreeFallIsExactWithAndWithoutDamping) {
     constexpr int kFrames = 20;
     for (const double damping : {0.0, 2.0}) {
@@ -63,17 +33,10 @@ TEST_P(EverySolver, FreeFallIsExactWithAndWithoutDamping) {
         ManualRun run(scene);
         const auto start = positions(run);
         run.run(kFrames);
-        // The steps that the scheme takes, in double precision.
-        Vec3 v, x;
-        const double h = scene.dt / scene.substeps;
-        for (int substep = 0; substep < kFrames * scene.substeps; ++substep) {
-            v = v + h * scene.gravity;
-            x = x + h * v;
-            v = (1.0 / (1.0 + h * damping)) * v;
-        }
+        const Fall fall = free_fall(scene, damping, kFrames);
         for (int vertex = 0; vertex < run.model->vertex_count(); ++vertex) {
-            EXPECT_LT(length(at(positions(run), vertex) - at(start, vertex) - x), 4e-5);
-            EXPECT_LT(length(at(velocities(run), vertex) - v), 2e-3);
+            EXPECT_LT(length(at(positions(run), vertex) - at(start, vertex) - fall.x), 4e-5);
+            EXPECT_LT(length(at(velocities(run), vertex) - fall.v), 2e-3);
         }
         EXPECT_LT(run.model->springs->energy(run.model->positions->span()), 1e-8);
     }
@@ -172,16 +135,7 @@ TEST_P(EverySolver, RotatedSceneGivesTheRotatedResult) {
         scene.cloths[0].pins.emplace_back().corners = {"x-z-", "x+z-"};
         ManualRun run(scene);
         run.run(15);
-        auto x = positions(run);
-        const Mat3 back = transposed(rotation_matrix(axis, degrees));
-        for (int v = 0; v < run.model->vertex_count(); ++v) {
-            const Vec3 p = back * at(x, v);
-            const auto first = 3 * static_cast<std::size_t>(v);
-            x[first] = static_cast<float>(p.x);
-            x[first + 1] = static_cast<float>(p.y);
-            x[first + 2] = static_cast<float>(p.z);
-        }
-        return x;
+        return turned_back(positions(run), axis, degrees);
     };
     const auto straight = run_rotated(0.0);
     EXPECT_LT(difference(straight, run_rotated(90.0)), 2e-3);
@@ -222,29 +176,7 @@ TEST_P(EverySolver, MomentumOfInternalForcesIsConserved) {
                 0.99f * x[v].z + 0.01f * x[v].x * x[v].z, x[v].w};
     }
     run.changed(x);
-    double largest = 0.0;  // what all momenta together are like
-    const auto expect_no_momentum = [&] {
-        Vec3 linear, angular;
-        double size = 0.0;
-        for (std::size_t v = 0; v < x.count(); ++v) {
-            const Vec3 place{x[v].x, x[v].y, x[v].z};
-            const float4& u = (*run.model->velocities)[v];
-            const Vec3 p = run.model->masses[v] * Vec3{u.x, u.y, u.z};
-            linear = linear + p;
-            angular = angular + cross(place, p);
-            size += length(p);
-        }
-        // What one constraint moves while another is projected is of second order for the angular
-        // momentum; all else is rounding.
-        largest = std::max(largest, size);
-        EXPECT_LT(length(linear), tolerance * largest);
-        EXPECT_LT(length(angular), 2.5 * tolerance * largest);
-    };
-    for (int frame = 0; frame < 10; ++frame) {
-        run.run(1);
-        expect_no_momentum();
-    }
-    EXPECT_GT(largest, 1e-3) << "it moves";
+    EXPECT_GT(run_without_momentum(run, 10, tolerance), 1e-3) << "it moves";
 }
 
 const std::string kOnPlane = R"(
@@ -299,13 +231,7 @@ TEST_P(EverySolver, FrictionHoldsBelowItsAngleAndLetsSlideAboveIt) {
     }
 }
 
-std::string name_of_method(const testing::TestParamInfo<Method>& info) {
-    return std::string(name_of(info.param));
-}
-
-INSTANTIATE_TEST_SUITE_P(Physics, EverySolver,
-                         testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd),
-                         name_of_method);
+INSTANTIATE_TEST_SUITE_P(Physics, EverySolver, kMethods, name_of_method);
 
 }  // namespace
 }  // namespace weft::test

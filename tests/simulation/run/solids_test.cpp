@@ -7,23 +7,14 @@
 #include <random>
 
 #include "simulation/model/convert.h"
-#include "simulation/scene/read_scene.h"
-#include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/physics.h"
 
 namespace weft::test {
 namespace {
 
-class EverySolverOf : public testing::TestWithParam<Method> {
-protected:
-    static Scene scene_of(const std::string& text) {
-        Scene scene = parse_scene(text, "test.toml");
-        scene.solver.method = GetParam();
-        return scene;
-    }
-};
-class Solid : public EverySolverOf {};
-class Membrane : public EverySolverOf {};
-class Attachment : public EverySolverOf {};
+class Solid : public EverySolver {};
+class Membrane : public EverySolver {};
+class Attachment : public EverySolver {};
 
 const std::string kBrick = R"(
 [scene]
@@ -40,26 +31,6 @@ young = 1.0e5
 poisson = 0.45
 )";
 
-Vec3 at(const std::vector<float>& values, int vertex) {
-    const float* v = &values[3 * static_cast<std::size_t>(vertex)];
-    return {v[0], v[1], v[2]};
-}
-std::vector<float> positions(const ManualRun& run) {
-    return run.in_scene_order(*run.model->positions);
-}
-std::vector<float> velocities(const ManualRun& run) {
-    return run.in_scene_order(*run.model->velocities);
-}
-
-/// The largest distance between corresponding vertices.
-double difference(const std::vector<float>& a, const std::vector<float>& b) {
-    double most = 0.0;
-    for (int v = 0; v < static_cast<int>(a.size() / 3); ++v) {
-        most = std::max(most, length(at(a, v) - at(b, v)));
-    }
-    return most;
-}
-
 TEST_P(Solid, FallsFreelyWithAndWithoutDamping) {
     constexpr int kFrames = 20;
     for (const double damping : {0.0, 2.0}) {
@@ -69,17 +40,10 @@ TEST_P(Solid, FallsFreelyWithAndWithoutDamping) {
         ManualRun run(scene);
         const auto start = positions(run);
         run.run(kFrames);
-        // The steps that the scheme takes, in double precision.
-        Vec3 v, x;
-        const double h = scene.dt / scene.substeps;
-        for (int substep = 0; substep < kFrames * scene.substeps; ++substep) {
-            v = v + h * scene.gravity;
-            x = x + h * v;
-            v = (1.0 / (1.0 + h * damping)) * v;
-        }
+        const Fall fall = free_fall(scene, damping, kFrames);
         const auto now = positions(run);
         for (int vertex = 0; vertex < run.model->vertex_count(); ++vertex) {
-            EXPECT_LT(length(at(now, vertex) - at(start, vertex) - x), 1e-4);
+            EXPECT_LT(length(at(now, vertex) - at(start, vertex) - fall.x), 1e-4);
         }
     }
 }
@@ -105,25 +69,9 @@ TEST_P(Solid, InternalForcesHaveNoMomentum) {
                 0.99f * x[v].z + 0.01f * x[v].x * x[v].y, x[v].w};
     }
     run.changed(x);
-    double largest = 0.0;
-    for (int frame = 0; frame < 10; ++frame) {
-        run.run(1);
-        Vec3 linear, angular;
-        double size = 0.0;
-        for (std::size_t v = 0; v < x.count(); ++v) {
-            const Vec3 p = run.model->masses[v] * to_vec3((*run.model->velocities)[v]);
-            linear = linear + p;
-            angular = angular + cross(to_vec3(x[v]), p);
-            size += length(p);
-        }
-        // Bounds as for cloth (physics_test.cpp): the angular momentum is off to second order, and
-        // Chebyshev's weights amplify rounding.
-        const double tolerance = GetParam() == Method::kJpgd ? 2e-2 : 2e-3;
-        largest = std::max(largest, size);
-        EXPECT_LT(length(linear), tolerance * largest);
-        EXPECT_LT(length(angular), 2.5 * tolerance * largest);
-    }
-    EXPECT_GT(largest, 1e-1) << "it moves";
+    // As for cloth (physics_test.cpp): Chebyshev's weights amplify rounding.
+    const double tolerance = GetParam() == Method::kJpgd ? 2e-2 : 2e-3;
+    EXPECT_GT(run_without_momentum(run, 10, tolerance), 1e-1) << "it moves";
 }
 
 TEST_P(Solid, RotatedSceneGivesTheRotatedResult) {
@@ -135,16 +83,7 @@ TEST_P(Solid, RotatedSceneGivesTheRotatedResult) {
         scene.solids[0].pins.emplace_back().faces = {"x-"};
         ManualRun run(scene);
         run.run(15);
-        auto x = positions(run);
-        const Mat3 back = transposed(rotation_matrix(axis, degrees));
-        for (int v = 0; v < run.model->vertex_count(); ++v) {
-            const Vec3 p = back * at(x, v);
-            const auto first = 3 * static_cast<std::size_t>(v);
-            x[first] = static_cast<float>(p.x);
-            x[first + 1] = static_cast<float>(p.y);
-            x[first + 2] = static_cast<float>(p.z);
-        }
-        return x;
+        return turned_back(positions(run), axis, degrees);
     };
     const auto straight = run_rotated(0.0);
     EXPECT_LT(difference(straight, run_rotated(90.0)), 2e-3);
@@ -303,11 +242,6 @@ TEST_P(Attachment, CarriesTheWeightOfWhatHangsOnIt) {
     EXPECT_NEAR(weight, 9.81 * 0.8, 1e-6);
 }
 
-std::string name_of_method(const testing::TestParamInfo<Method>& info) {
-    return std::string(name_of(info.param));
-}
-
-const auto kMethods = testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd);
 INSTANTIATE_TEST_SUITE_P(Methods, Solid, kMethods, name_of_method);
 INSTANTIATE_TEST_SUITE_P(Methods, Membrane, kMethods, name_of_method);
 INSTANTIATE_TEST_SUITE_P(Methods, Attachment, kMethods, name_of_method);
