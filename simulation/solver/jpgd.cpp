@@ -55,6 +55,8 @@ public:
           slopes_(model, items_),
           energy_(model, substep_.targets()),
           other_("positions.other", model.positions->count()),
+          residues_{Buffer<float4>("positions.residue", model.positions->count()),
+                    Buffer<float4>("positions.other.residue", model.positions->count())},
           kept_("positions.kept", model.positions->count()),
           control_("control", WEFT_CONTROL_SIZE),
           weights_("chebyshev", static_cast<std::size_t>(iterations_) + 1),
@@ -105,6 +107,11 @@ private:
         return iterations % 2 == 0 ? *model_.positions : other_;
     }
 
+    /// What is missing in them, see the step.
+    Buffer<float4>& residue(int iterations) {
+        return residues_[static_cast<std::size_t>(iterations % 2)];
+    }
+
     void make_bodies() {
         predict_ = {"predict", kPredict, substep_.begin()};
         substep_.add_contacts(predict_.launches, *model_.positions);
@@ -124,7 +131,7 @@ private:
             refreshes_[p] = {"refresh", kRefresh, slopes_.gather(kInnerPhase, after(parity))};
             steps_[p] = {"step", kStep, slopes_.gather_forces(kInnerPhase, after(parity))};
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
-                body->launches.push_back(descend(after(parity), after(parity + 1)));
+                body->launches.push_back(descend(parity));
                 substep_.add_contacts(body->launches, after(parity + 1));
             }
         }
@@ -141,9 +148,10 @@ private:
         return launch(kernels::keep_or_revert, model_.vertices(), values, kept, control_);
     }
 
-    Launch descend(Buffer<float4>& positions, Buffer<float4>& next) {
-        return launch(kernels::step_preconditioned, model_.vertices(), positions, next,
-                      substep_.targets(), slopes_.sums(), control_, weights_, items_.count(),
+    Launch descend(int parity) {
+        return launch(kernels::step_preconditioned, model_.vertices(), after(parity),
+                      after(parity + 1), residue(parity), residue(parity + 1), substep_.targets(),
+                      slopes_.sums(), control_, weights_, items_.count(),
                       static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
     }
 
@@ -186,7 +194,9 @@ private:
         task.reads(control_, 0, WEFT_CONTROL_SIZE)
             .reads(after(iteration), reach_begin, reach_end)
             .reads(substep_.targets(), first, last)
-            .updates(after(iteration + 1), first, last);
+            .updates(after(iteration + 1), first, last)
+            .reads(residue(iteration), first, last)
+            .updates(residue(iteration + 1), first, last);
         slopes_.add_hessian_accesses(task, first, last, is_fresh);
         substep_.add_contact_accesses(task, first, last);
     }
@@ -205,7 +215,9 @@ private:
     Slopes slopes_;
     EnergySum energy_;
     Reach reach_{model_};
-    Buffer<float4> other_, kept_;
+    Buffer<float4> other_;
+    std::array<Buffer<float4>, 2> residues_;  ///< [parity of iterations]
+    Buffer<float4> kept_;
     std::unique_ptr<Buffer<float4>> kept_targets_;  ///< null: no obstacles, nothing moves targets
     Buffer<float> control_;
     Buffer<float> weights_;

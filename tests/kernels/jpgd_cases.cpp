@@ -118,6 +118,8 @@ void revert_case(KernelCase& c) {
 void step_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& next = add_points(c, "next", c.items);
+    auto& residue = add_points(c, "residue", c.items);
+    auto& next_residue = add_points(c, "next_residue", c.items);
     auto& targets = add_points(c, "targets", c.items);
     auto& sums = add_reals(c, "sums", 9 * c.items, 0.0f, 1.0f);
     auto& control = add_control(c);
@@ -125,8 +127,9 @@ void step_case(KernelCase& c) {
     weights[0] = 1.0f;
     weights[1] = 1.5f;
     weights[2] = 1.8f;
-    c.launch = launch(kernels::step_preconditioned, c.segments, positions, next, targets, sums,
-                      control, weights, c.items, 1e2f, 1 + c.items % 3);
+    c.launch =
+        launch(kernels::step_preconditioned, c.segments, positions, next, residue, next_residue,
+               targets, sums, control, weights, c.items, 1e2f, 1 + c.items % 3);
 }
 
 const bool added =

@@ -34,9 +34,9 @@ const TestScene kScenes[] = {
     {"SosdEverything", kEverything, Method::kSosd, "dd50b25d1b82b1662d56144e38caedd9"},
     {"SosdSolids", kSolids, Method::kSosd, "702bcf436c5866179943171afbf2c300"},
     {"SosdSpringsOnly", kSpringsOnly, Method::kSosd, "00dfd70c45689a281240dc02e561cdee"},
-    {"JpgdEverything", kEverything, Method::kJpgd, "8c506120e1bf06accd014070196bdaf6"},
-    {"JpgdSolids", kSolids, Method::kJpgd, "e339e03a1a91c4e4a6065882a1dda2b3"},
-    {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "429c832900be0e6c9e774654dc7fb80c"},
+    {"JpgdEverything", kEverything, Method::kJpgd, "aa5c5ac161d2559e254b7858af346d92"},
+    {"JpgdSolids", kSolids, Method::kJpgd, "2eff27821aa36236aa1f7929feebef52"},
+    {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "a13e1511b92b2af4ffe5a76ee0a6380c"},
 };
 
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {
