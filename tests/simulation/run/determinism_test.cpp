@@ -126,6 +126,21 @@ TEST_P(OpenClDeterminism, EntryPointsOfGpus) {
     EXPECT_EQ(hash_on("opencl:0", options), GetParam().hash);
 }
 
+/// Every kernel of the scene, small enough for oclgrind.
+TEST_P(OpenClDeterminism, OneSubstep) {
+    const auto hash_on = [&](std::vector<std::unique_ptr<Device>> devices) {
+        ManualRun run(scene_, std::move(devices));
+        run.run_substeps(1);
+        return run.hash();
+    };
+    const std::string expected = hash_on(opened({}, 1));
+    EXPECT_EQ(hash_on(opened({MemoryModel::kHost}, 0)), expected);
+    DeviceOptions as_gpu;
+    as_gpu.per_colour = true;
+    as_gpu.opencl_lanes = 1;
+    EXPECT_EQ(hash_on(open_opencl_device(0, {}, as_gpu)), expected);
+}
+
 TEST_P(OpenClDeterminism, EveryMixtureThatAPlannerMakes) {
     for (const PlanKind plan : {PlanKind::kAuto, PlanKind::kExact, PlanKind::kSingle}) {
         EXPECT_EQ(hash_on("cpu/1+opencl:0/1", {}, plan), GetParam().hash);
