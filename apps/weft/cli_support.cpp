@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "runtime/cache_folder.h"
-#include "runtime/error.h"
 #include "simulation/scene/near_miss.h"
 
 namespace weft {
@@ -61,57 +59,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// --memory; "auto": what the device says of itself.
-std::optional<MemoryModel> memory_model(const std::string& name) {
-    for (const auto model : {MemoryModel::kHost, MemoryModel::kMapped, MemoryModel::kDiscrete}) {
-        if (name == name_of(model)) return model;
-    }
-    return std::nullopt;
-}
-
-PlanKind plan_kind(const std::string& name) {
-    if (name == "auto") return PlanKind::kAuto;
-    if (name == "exact") return PlanKind::kExact;
-    if (name == "single") return PlanKind::kSingle;
-    throw UserError(fmt::format(
-        "--plan {}: not in this version of weft; available: auto, exact, single", name));
-}
-
-std::string& noted_command_line() {
-    static std::string line;
-    return line;
-}
-
 }  // namespace
-
-std::vector<Override> RunOptions::overrides() const {
-    std::vector<Override> list;
-    for (const std::string& assignment : set) list.push_back({assignment, "--set " + assignment});
-    const auto add = [&](const std::optional<std::string>& value, const char* option,
-                         const char* path) {
-        if (value)
-            list.push_back(
-                {fmt::format("{}={}", path, *value), fmt::format("{} {}", option, *value)});
-    };
-    add(solver, "--solver", "solver.method");
-    add(frames, "--frames", "scene.frames");
-    add(substeps, "--substeps", "scene.substeps");
-    add(iterations, "--iterations", "solver.iterations");
-    return list;
-}
-
-SimulationOptions RunOptions::simulation() const {
-    SimulationOptions options;
-    options.devices = device;
-    options.plan = plan_kind(plan);
-    options.device_options.strict_math = math == "strict";
-    options.device_options.memory = memory_model(memory);
-    if (!strips.empty()) options.division = Division{strips};
-    if (const auto folder = cache_folder(); !folder.empty()) {
-        options.cost_file = folder / "costs.json";
-    }
-    return options;
-}
 
 void add_scene_options(CLI::App& command, RunOptions& options) {
     command.add_option("SCENE", options.scene, "scene file (.toml)")->required()->type_name("FILE");
@@ -221,16 +169,6 @@ void add_run_options(CLI::App& command, RunOptions& options) {
             },
             "print the JSON Schema of scene files, and stop")
         ->trigger_on_parse();
-}
-
-void note_command_line(int argc, char** argv) {
-    noted_command_line() = fmt::format("{}", fmt::join(argv, argv + argc, " "));
-}
-
-const std::string& command_line() { return noted_command_line(); }
-
-void print_warnings(const Warnings& warnings) {
-    for (const std::string& warning : warnings) std::cerr << "weft: warning: " << warning << '\n';
 }
 
 CLI::Validator one_of(std::vector<std::string> choices) {

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 /// Every subcommand of weft, one file each (<name>_command.cpp). A function adds its subcommand,
 /// with its options, its help with an example, and a callback that does the work. It throws

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/comparison.h"
 #include "runtime/device_list.h"

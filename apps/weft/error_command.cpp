@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/error_picture.h"
 #include "apps/weft/error_report.h"

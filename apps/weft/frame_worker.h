@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/weft/cli_support.h"
+#include "apps/weft/run_options.h"
 
 namespace weft {
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_run.h"
 

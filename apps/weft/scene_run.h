@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "apps/weft/cli_support.h"
+#include "apps/weft/run_options.h"
 #include "apps/weft/earlier_run.h"
 #include "apps/weft/interrupt.h"
 #include "apps/weft/output_folder.h"

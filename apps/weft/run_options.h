@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+
+namespace weft {
+
+/// Options of `run`, most of which serve other commands too. `weft run --help` says what they mean.
+struct RunOptions {
+    std::string scene;
+    std::string device = "hybrid";
+    std::string plan = "auto";
+    std::string math = "strict";
+    std::string memory = "auto";
+    std::vector<int> strips;  ///< per device; empty: planned
+    // Values of the scene stay text: the scene's own check says what is wrong with them.
+    std::optional<std::string> solver;
+    std::optional<std::string> frames;
+    std::optional<std::string> substeps;
+    std::optional<std::string> iterations;
+    std::vector<std::string> set;
+    std::optional<std::string> out;
+    bool no_geometry = false;
+    bool no_trace = false;
+    bool force = false;
+    bool resume = false;
+    double checkpoint = 10.0;  ///< [s] between two of them
+    bool quiet = false;
+    bool json = false;
+
+    /// --set first, then the short forms, which win; for read_scene().
+    std::vector<Override> overrides() const;
+    /// Throws UserError for what this version does not have.
+    SimulationOptions simulation() const;
+};
+
+/// What the user typed, words joined by blanks; for traces. main() notes it.
+void note_command_line(int argc, char** argv);
+const std::string& command_line();
+
+/// "weft: warning: ..." on stderr, each.
+void print_warnings(const Warnings& warnings);
+
+}  // namespace weft
