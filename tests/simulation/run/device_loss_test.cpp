@@ -4,6 +4,7 @@
 
 #include "runtime/error.h"
 #include "runtime/tbb/cpu_device.h"
+#include "simulation/replay.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
 #include "tests/simulation/run/failing_device.h"
@@ -72,6 +73,24 @@ TEST_P(DeviceLoss, ItsWorkIsRecordedUnderTheOthersNumbers) {
     ASSERT_FALSE(frame.executions.empty());
     for (const auto& e : frame.executions) EXPECT_EQ(static_cast<int>(e.device), 1 - lost);
     for (const auto& p : frame.plan) EXPECT_EQ(static_cast<int>(p.device), 1 - lost);
+}
+
+/// The plans before and after the loss, each on the devices that it had.
+TEST_P(DeviceLoss, TheRunCanBeReplayed) {
+    const int lost = GetParam();
+    std::vector<int> batches{kNever, kNever};
+    batches[static_cast<std::size_t>(lost)] = kCalibration + 2;
+    Simulation disturbed = simulation(batches);
+    const RunDescription run = disturbed.describe();
+    SimulationOptions options;
+    options.devices = "cpu/1";  // a machine with less: what was device i's goes to i modulo 1
+    Warnings warnings;
+    Replay replay(parse_scene(kEverything, "everything.toml"), options, run, warnings);
+    for (int i = 0; i < kFrames; ++i) {
+        replay.advance(disturbed.advance());
+        EXPECT_EQ(replay.simulation().hash(), disturbed.hash()) << "after frame " << i;
+    }
+    EXPECT_EQ(disturbed.losses().size(), 1U);
 }
 
 /// A solver may carry state of its own from substep to substep.
