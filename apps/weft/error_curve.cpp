@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <limits>
+#include <span>
 #include <sstream>
 
 #include "apps/weft/child_process.h"
@@ -41,7 +41,8 @@ MeasuredCurve to_curve(const std::string& bytes) {
     in.get();
     const auto at = static_cast<std::size_t>(in.tellg());
     curve.positions.resize((bytes.size() - at) / sizeof(float));
-    std::memcpy(curve.positions.data(), bytes.data() + at, bytes.size() - at);
+    std::ranges::copy(std::as_bytes(std::span(bytes)).subspan(at),
+                      std::as_writable_bytes(std::span(curve.positions)).begin());
     return curve;
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "runtime/error.h"
@@ -70,7 +71,7 @@ private:
         const std::vector<std::byte> bytes =
             read_as(type_.owner_only(), sizeof(std::uint32_t), {0, rows_});
         std::vector<std::uint32_t> owners(rows_);
-        std::memcpy(owners.data(), bytes.data(), bytes.size());
+        std::ranges::copy(bytes, std::as_writable_bytes(std::span(owners)).begin());
         return owners;
     }
 
@@ -113,7 +114,8 @@ std::string text_of(const std::array<char, Size>& bytes) {
 
 std::vector<double> last_doubles(const std::byte* row, std::size_t row_size, std::size_t count) {
     std::vector<double> values(count);
-    std::memcpy(values.data(), row + row_size - count * sizeof(double), count * sizeof(double));
+    const auto bytes = std::as_writable_bytes(std::span(values));
+    std::copy_n(row + row_size - bytes.size(), bytes.size(), bytes.begin());
     return values;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "runtime/error.h"
@@ -44,9 +45,8 @@ public:
     template <class Columns>
     void append(const Columns& columns, const std::vector<double>& doubles) {
         std::vector<std::byte> row(type_.size());
-        const std::size_t tail = doubles.size() * sizeof(double);
         std::memcpy(row.data(), &columns, sizeof(columns));
-        std::memcpy(row.data() + row.size() - tail, doubles.data(), tail);
+        std::ranges::copy_backward(std::as_bytes(std::span(doubles)), row.end());
         data_.append(type_.memory(), row.data(), 1);
         data_.flush();
     }
