@@ -1,0 +1,117 @@
+"""`./dev peers`: Weft beside the simulators that people would use instead, on one core, in turn."""
+
+import argparse
+import json
+import os
+import pathlib
+import sys
+import tempfile
+
+import report
+from rounds import Rounds
+from sheet import Sheet
+from systems import ALL, named
+
+PROJECT = pathlib.Path(__file__).resolve().parents[2]
+
+EPILOG = """\
+Every system simulates the same sheet in a process of its own, and they take turns, so that a change
+of the machine's speed meets all alike; nobody else runs meanwhile. A package that is not installed
+is named, and left out. Exit codes: 0 done; 1 a system failed, or what it computed is no hanging
+cloth; 2 the request was wrong.
+
+systems: {systems}
+
+Example:
+  ./dev peers --resolution 200 --rounds 3 --only weft,newton-vbd-bend"""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        fail(2, message)
+
+
+def fail(code, message):
+    print(f"peers: error: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+def say(text):
+    print(f"peers: {text}", file=sys.stderr, flush=True)
+
+
+def at_least(lowest):
+    def number(text):
+        value = int(text)
+        if value < lowest:
+            raise argparse.ArgumentTypeError(f"{value} is less than {lowest}")
+        return value
+
+    number.__name__ = "integer"
+    return number
+
+
+def arguments():
+    parser = Parser(prog="./dev peers", description=__doc__.split(": ", 1)[1],
+                    formatter_class=argparse.RawDescriptionHelpFormatter,
+                    epilog=EPILOG.format(systems=", ".join(d.name for d in ALL)))
+    parser.add_argument("--resolution", type=at_least(4), default=100, metavar="N",
+                        help="N x N particles (100)")
+    parser.add_argument("--substeps", type=at_least(1), default=10, metavar="N",
+                        help="steps per frame of 1/60 s (10)")
+    parser.add_argument("--iterations", type=at_least(1), default=8, metavar="N",
+                        help="iterations per substep (8)")
+    parser.add_argument("--rounds", type=at_least(1), default=7, metavar="N",
+                        help="turns of each system (7)")
+    parser.add_argument("--frames", type=at_least(1), default=3, metavar="N",
+                        help="frames per turn, of which the median counts (3)")
+    parser.add_argument("--only", default="", metavar="NAMES",
+                        help="systems or families of them (weft, newton, pypbd), with commas")
+    parser.add_argument("--weft", type=pathlib.Path, metavar="PATH",
+                        default=PROJECT / "build/release/bin/weft", help="the program")
+    parser.add_argument("--json", action="store_true", help="print one JSON document")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but results and errors")
+    return parser.parse_args()
+
+
+def chosen_systems(only):
+    try:
+        return named([name for name in only.split(",") if name])
+    except KeyError as unknown:
+        fail(2, f"--only: there is no system {unknown}; there are: "
+             + ", ".join(description.name for description in ALL))
+
+
+def core_to_use():
+    """The last core that this process may use; None where processes cannot be pinned."""
+    return max(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None
+
+
+def main():
+    options = arguments()
+    systems = chosen_systems(options.only)
+    if not options.weft.is_file():
+        fail(2, f"--weft: there is no program {options.weft}; `./dev weft --version` builds it")
+    sheet = Sheet(options.resolution, options.substeps, options.iterations)
+    core = core_to_use()
+    with tempfile.TemporaryFile() as log:
+        result = Rounds((lambda text: None) if options.quiet else say)
+        result.run(systems, sheet, options.weft.resolve(), core, options.rounds, options.frames,
+                   log)
+    document = report.as_json(result, sheet, options.rounds, options.frames, core)
+    print(json.dumps(document, indent=2) if options.json else report.as_text(document))
+    for name, why in result.missing.items():
+        say(f"left out {name}: {why}")
+    for row in document["systems"]:
+        if row["complaint"]:
+            result.failed[row["system"]] = f"this is no hanging cloth: {row['complaint']}"
+    for name, why in result.failed.items():
+        print(f"peers: error: {name}: {why}", file=sys.stderr)
+    sys.exit(1 if result.failed else 0)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)
