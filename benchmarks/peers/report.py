@@ -50,7 +50,7 @@ def as_text(document):
     sheet = document["sheet"]
     head = (f"{sheet['resolution']} x {sheet['resolution']} particles, {sheet['substeps']} substeps"
             f" x {sheet['iterations']} iterations per frame, one core of {_machine(document)}; "
-            f"{document['rounds']} rounds of {document['frames_per_turn']} frames in turn")
+            f"rounds: {document['rounds']}, of {document['frames_per_turn']} frames")
     lines = [head, "", _line("system", "ms/frame", "lowest..highest", "ns per", "", "x Weft",
                              "lowest..highest", "mean y", "longest edge", "what")]
     for row in document["systems"]:
