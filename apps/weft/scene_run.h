@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "apps/weft/run_options.h"
 #include "apps/weft/earlier_run.h"
 #include "apps/weft/interrupt.h"
 #include "apps/weft/output_folder.h"
+#include "apps/weft/run_options.h"
 #include "simulation/simulation.h"
 
 namespace weft {
