@@ -159,28 +159,24 @@ private:
         const auto parity = static_cast<std::size_t>(iteration % 2);
         const int columns = EnergySum::kColumns;
         for (const Region& region : regions) {
-            for_each_share(region, [&](int begin, int end) {
-                const auto [first, last] = substep_.vertices(begin, end);
-                const auto [reach_begin, reach_end] = reach_.around(first, last);
-                step.add(energies_[parity], iteration, begin, end, region.id)
-                    .reads(after(iteration), reach_begin, reach_end)
-                    .reads(substep_.targets(), first, last)
-                    .updates(energy_.partials(), columns * begin, columns * end);
-            });
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            const auto [reach_begin, reach_end] = reach_.around(first, last);
+            step.add(energies_[parity], iteration, region.begin, region.end, region.id)
+                .reads(after(iteration), reach_begin, reach_end)
+                .reads(substep_.targets(), first, last)
+                .updates(energy_.partials(), columns * region.begin, columns * region.end);
         }
         step.add(decide_, iteration, 0, 1, 0)
             .reads(energy_.partials(), 0, columns * model_.strips.count())
             .updates(control_, 0, WEFT_CONTROL_SIZE);
         for (const Region& region : regions) {
-            for_each_share(region, [&](int begin, int end) {
-                const auto [first, last] = substep_.vertices(begin, end);
-                auto task = step.add(reverts_[parity], iteration, begin, end, region.id);
-                task.reads(control_, 0, WEFT_CONTROL_SIZE)
-                    .updates(after(iteration), first, last)
-                    .updates(kept_, first, last);
-                if (!kept_targets_) return;
-                task.updates(substep_.targets(), first, last).updates(*kept_targets_, first, last);
-            });
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            auto task = step.add(reverts_[parity], iteration, region.begin, region.end, region.id);
+            task.reads(control_, 0, WEFT_CONTROL_SIZE)
+                .updates(after(iteration), first, last)
+                .updates(kept_, first, last);
+            if (!kept_targets_) continue;
+            task.updates(substep_.targets(), first, last).updates(*kept_targets_, first, last);
         }
     }
 

@@ -1,7 +1,5 @@
 #include "simulation/solver/sweeps.h"
 
-#include <algorithm>
-
 namespace weft {
 
 namespace {
@@ -60,26 +58,17 @@ Step SweepSolver::make_step(std::span<const int> cuts) {
     return step;
 }
 
-/// As XPBD's: seams first, the open ones as tasks of their own; then strips.
+/// As XPBD's: seams first, then strips.
 void SweepSolver::add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
     for (const Region& region : regions) {
-        add_seams(step, iteration, region.begin, region.end - 1, region.id);
-    }
-    for (const Region& region : regions) {
-        if (!region.cut_behind) continue;
-        add_seams(step, iteration, region.end - 1, region.end, region.id);
-    }
-    for (const Region& region : regions) {
-        for_each_share(region, [&](int begin, int end) {
-            add_strips(step, iteration, begin, end, region.id);
-        });
+        for_each_part(
+            region, [&](int begin, int end) { add_seams(step, iteration, begin, end, region.id); },
+            [&](int begin, int end) { add_strips(step, iteration, begin, end, region.id); });
     }
 }
 
 /// The vertices of a seam lie within its hull; their elements reach into both strips.
 void SweepSolver::add_seams(Step& step, int iteration, int begin, int end, int region) {
-    end = std::min(end, model_.strips.seam_count());
-    if (begin >= end) return;
     const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
     const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
     const auto [reach_begin, reach_end] = reach_.around(first, last);

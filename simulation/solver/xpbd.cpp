@@ -1,7 +1,5 @@
 #include "simulation/solver/xpbd.h"
 
-#include <algorithm>
-
 #include "kernels/motion.h"
 #include "kernels/xpbd/hinges.h"
 #include "kernels/xpbd/membranes.h"
@@ -148,26 +146,17 @@ private:
             .updates(*model_.velocities, begin, end);
     }
 
-    /// First what crosses from strip to strip, then the strips. Only the open seam between two
-    /// regions and the strips beside it are shared between devices, so they are tasks of their own.
+    /// First what crosses from strip to strip, then the strips.
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
         for (const Region& region : regions) {
-            add_seams(step, iteration, region.begin, region.end - 1, region.id);
-        }
-        for (const Region& region : regions) {
-            if (!region.cut_behind) continue;
-            add_seams(step, iteration, region.end - 1, region.end, region.id);
-        }
-        for (const Region& region : regions) {
-            for_each_share(region, [&](int begin, int end) {
-                add_strips(step, iteration, begin, end, region.id);
-            });
+            for_each_part(
+                region,
+                [&](int begin, int end) { add_seams(step, iteration, begin, end, region.id); },
+                [&](int begin, int end) { add_strips(step, iteration, begin, end, region.id); });
         }
     }
 
     void add_seams(Step& step, int iteration, int begin, int end, int id) {
-        end = std::min(end, model_.strips.seam_count());
-        if (begin >= end) return;
         const TaskBody& body = seams_[iteration == 0];
         const auto first = static_cast<std::size_t>(begin);
         const auto last = static_cast<std::size_t>(end - 1);
@@ -178,7 +167,6 @@ private:
     }
 
     void add_strips(Step& step, int iteration, int begin, int end, int id) {
-        if (begin >= end) return;
         const TaskBody& body = strips_[iteration == 0];
         auto task = step.add(body, iteration, begin, end, id);
         task.updates(*model_.positions, first_vertex(begin), first_vertex(end));
