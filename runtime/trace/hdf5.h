@@ -144,6 +144,7 @@ public:
 private:
     std::string name_;
     Handle dataset_;
+    Handle transfer_;
     std::vector<hsize_t> row_shape_;
     hsize_t rows_ = 0;
 };
