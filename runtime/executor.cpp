@@ -170,7 +170,10 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
     : devices_(std::move(devices)), epoch_(epoch) {
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
-        if (submission_cores_.empty()) submission_cores_ = device->info().cores;
+        if (submission_cores_.empty()) {
+            submission_cores_ = device->info().cores;
+            submitter_ = streams_.size() - 1;
+        }
         one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
     }
 }
@@ -197,10 +200,11 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
             drain();
             throw DeviceLost(run.at(), error.what());
         }
-        // The first device last: its core is the one that submits.
-        for (std::size_t d = streams_.size(); d-- > 0;) {
-            on(d, [&] { streams_[d]->flush(); });
+        // Last the one whose core submits: it takes that core.
+        for (std::size_t d = 0; d < streams_.size(); ++d) {
+            if (d != submitter_) on(d, [&] { streams_[d]->flush(); });
         }
+        on(submitter_, [&] { streams_[submitter_]->flush(); });
     }
     for (std::size_t d = 0; d < streams_.size(); ++d) {
         on(d, [&] { streams_[d]->finish(); });

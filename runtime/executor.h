@@ -76,6 +76,7 @@ private:
     std::vector<Device*> devices_;
     std::vector<std::unique_ptr<DeviceStream>> streams_;
     std::vector<int> submission_cores_;  ///< of the first device that has cores of its own
+    std::size_t submitter_ = 0;          ///< that device
     MemoryMap memory_;
     bool one_memory_ = true;  ///< all devices work in the host's: nothing to copy, nothing to track
     double epoch_;
