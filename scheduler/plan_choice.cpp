@@ -7,9 +7,11 @@ namespace weft::scheduler {
 
 PlanChoice::PlanChoice(std::uint32_t alternatives, const PlanChoiceSettings& settings)
     : settings_(settings), history_(alternatives) {
-    // Two frames as planned stand at the beginning, so that the first one measured is not the rule.
-    for (History& history : history_) history.ratios = {1.0, 1.0};
+    for (std::uint32_t i = 0; i < alternatives; ++i) forget(i);
 }
+
+/// Two frames as planned stand at the beginning, so that the first one measured is not the rule.
+void PlanChoice::forget(std::uint32_t alternative) { history_[alternative] = {{1.0, 1.0}, 1.0}; }
 
 std::uint32_t PlanChoice::choose(std::span<const double> predicted) {
     const auto expected = [&](std::uint32_t i) { return predicted[i] * correction(i); };

@@ -30,6 +30,8 @@ public:
     void measured(std::uint32_t alternative, double planned, double seconds);
 
     std::uint32_t current() const { return current_; }
+    /// Begins anew with what is learnt of an alternative.
+    void forget(std::uint32_t alternative);
     /// How much longer than planned the alternative takes, as learnt.
     double correction(std::uint32_t alternative) const { return history_[alternative].median; }
 

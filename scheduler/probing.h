@@ -8,18 +8,22 @@ namespace weft::scheduler {
 struct ProbeSettings {
     std::uint32_t interval = 30;  ///< frames out of use after which a device may be probed
     double price_share = 0.01;    ///< part of the run time that probes may cost
+    double start_frames = 0.5;    ///< and at the start, this part of the first frame's time
 };
 
 /// When to try a device that the plans leave out, since its costs may have been learnt in a bad
 /// moment. Probes are paid from a credit that grows with the run time: so their price is bounded,
-/// however slow the device is, and yet each device is probed again in the end.
+/// however slow the device is, and yet each device is probed again in the end. What is known at the
+/// start is from another time, so all devices are due then.
 class ProbePolicy {
 public:
     explicit ProbePolicy(std::uint32_t devices, const ProbeSettings& settings = {})
-        : settings_(settings), idle_frames_(devices, 0) {}
+        : settings_(settings), idle_frames_(devices, settings.interval) {}
 
     /// Call once per frame. seconds  what it took.
     void end_frame(double seconds) {
+        if (is_first_) credit_ += settings_.start_frames * seconds;
+        is_first_ = false;
         credit_ += settings_.price_share * seconds;
         for (std::uint32_t& frames : idle_frames_) ++frames;
     }
@@ -41,6 +45,7 @@ public:
 
 private:
     ProbeSettings settings_;
+    bool is_first_ = true;
     double credit_ = 0.0;
     std::vector<std::uint32_t> idle_frames_;  // [device]
 };

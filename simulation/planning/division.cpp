@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace weft {
@@ -50,6 +51,14 @@ unsigned Division::mask() const {
     unsigned mask = 0;
     for (const int device : devices()) mask |= 1U << device;
     return mask;
+}
+
+int Division::distance(const Division& other) const {
+    int most = 0;
+    for (std::size_t d = 0; d < strips.size(); ++d) {
+        most = std::max(most, std::abs(strips[d] - other.strips[d]));
+    }
+    return most;
 }
 
 std::vector<Division> Division::neighbours() const {

@@ -20,6 +20,8 @@ struct Division {
     std::vector<int> cuts() const;
     /// One bit per device that takes part.
     unsigned mask() const;
+    /// The most strips that a device has more or less in the other one.
+    int distance(const Division& other) const;
     /// Every division that differs by one strip handed to a neighbouring device.
     std::vector<Division> neighbours() const;
 

@@ -71,6 +71,9 @@ private:
     Division single(int device) const {
         return Division::single(device_count(), strip_count_, device);
     }
+    Division equal_shares() const {
+        return Division::proportional(strip_count_, std::vector<double>(devices_.size(), 1.0));
+    }
     /// Among the alternatives that the choice is made from: each single device, then the mixture.
     std::uint32_t alternative_of(const Division& division) const;
 
@@ -82,9 +85,13 @@ private:
     bool links_are_current(const scheduler::TaskGraph& graph) const;
     /// Predicted time of a substep.
     double predict(const Division& division);
+    /// With what has been learnt of how such plans turn out.
+    double expect(const Division& division);
     void improve_mixture();
+    Division divide_by_speed();
     Division choose();
     std::optional<Division> probe(const Division& chosen);
+    std::vector<Division> trials_of(int device, const Division& chosen) const;
     Division with_one_strip_for(int device, const Division& chosen) const;
     void fill(const Division& division);
     void learn_pace();
@@ -105,6 +112,9 @@ private:
     Division last_division_;        ///< of the last frame
     int last_instances_ = 0;        ///< substeps of it; 0: there was none
     double last_frame_time_ = 0.0;  ///< [s]
+    bool last_was_trial_ = false;
+    bool is_trial_ = false;  ///< the present plan is made to look at a device again
+    double to_beat_ = 0.0;   ///< what the plan chosen instead was expected to take a substep [s]
     long frame_ = 0;
     // Working memory.
     scheduler::InOrder in_order_;

@@ -19,7 +19,8 @@ public:
                               static_cast<std::uint32_t>(device), static_cast<double>(task.items));
     }
     double latency(int from, int to) const { return latency_[index(from, to)]; }
-    void set_latency(int from, int to, double seconds) { latency_[index(from, to)] = seconds; }
+    /// What is known from elsewhere, and is replaced as soon as it is measured here.
+    void set_latency(int from, int to, double seconds);
     /// Takes over what another model knows of its devices `numbers`, in this order.
     void inherit(const TimingModel& other, const std::vector<int>& numbers);
 
@@ -33,17 +34,19 @@ public:
 
 private:
     struct Arrival;
+    struct Exchanges;
 
     std::size_t index(int from, int to) const {
         return static_cast<std::size_t>(from) * devices_ + static_cast<std::size_t>(to);
     }
     std::vector<Arrival> find_arrivals(const Step& step, const scheduler::Plan& plan,
                                        const RunTimes& times, int instances) const;
-    void learn_latencies(const std::vector<std::vector<double>>& waits);
+    void learn_latencies(const std::vector<Exchanges>& exchanges);
 
     std::size_t devices_;
     scheduler::CostModel costs_;
     std::vector<double> latency_;  ///< [from][to]
+    std::vector<int> unseen_;      ///< [from][to] frames since it was measured
 };
 
 }  // namespace weft

@@ -63,6 +63,7 @@ TEST(Division, NeighboursAreOneStripAwayBothWays) {
             EXPECT_NE(std::find(back.begin(), back.end(), division), back.end());
         }
     }
+    EXPECT_EQ((Division{{1, 6, 3}}.distance(Division{{4, 4, 2}})), 3);
     EXPECT_EQ((Division{{4, 6}}.neighbours().size()), 2U);
     EXPECT_EQ((Division{{0, 10}}.neighbours().size()), 1U);
 }

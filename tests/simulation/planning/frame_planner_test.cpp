@@ -166,6 +166,30 @@ TEST(FramePlanner, OneDisturbedFrameChangesLittle) {
     EXPECT_NEAR(after.planned / before.planned, 1.0, 0.1);
 }
 
+/// The exchange is slow for some frames, so that one device alone is faster.
+TEST(FramePlanner, ReturnsToAMixtureThatLookedSlow) {
+    constexpr double kUsual = 20e-6;
+    for (const double factor : {20.0, 30.0, 60.0}) {
+        Planned p(60, 100, {{2e-6, 20e-9}, {2e-6, 20e-9}}, kUsual);
+        const auto before = p.advance(10);
+        ASSERT_EQ(before.division.devices().size(), 2U);
+        p.machine.latency = factor * kUsual;
+        ASSERT_EQ(p.advance(20).division.devices().size(), 1U) << factor;
+        p.machine.latency = kUsual;
+        const auto after = p.advance(250);  // the dearest trial takes its time to be earned
+        EXPECT_EQ(after.division.devices().size(), 2U) << factor;
+        EXPECT_LT(after.measured, 1.02 * before.measured) << factor;
+    }
+}
+
+TEST(FramePlanner, DoesNotTrustLatenciesOfAnotherDayForLong) {
+    Planned p(60, 100, {{2e-6, 20e-9}, {2e-6, 20e-9}}, 20e-6);
+    p.planner.timing().set_latency(0, 1, 400e-6);
+    p.planner.timing().set_latency(1, 0, 400e-6);
+    EXPECT_EQ(p.advance().division.devices().size(), 1U);
+    EXPECT_EQ(p.advance(6).division.devices().size(), 2U);
+}
+
 TEST(FramePlanner, ExactAndSingleKeepToTheirKind) {
     const std::vector<VirtualMachine::Speed> speeds{{2e-6, 10e-9}, {2e-6, 12e-9}};
     Planned exact(20, 60, speeds, 1e-3, PlanKind::kExact);
