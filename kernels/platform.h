@@ -11,6 +11,10 @@
 // contracted, always correctly rounded. Helpers without loads and stores (element energies) compile
 // with real = double, too, for the reference solver: platform/in_double.h.
 //
+// WEFT_KERNEL(name, parameters...) { ... } between WEFT_KERNELS_BEGIN and WEFT_KERNELS_END is a
+// kernel; motion.h has short ones. Its words:
+//
+//   i                  the item, in a kernel's body
 //   real, integer      one value per item: a float, an int, or 8 of them
 //   real3, real4       structs of real; vector.h has their arithmetic
 //   item               the items of this call: kLanes of them, or fewer at the end of a range
@@ -27,7 +31,8 @@
 //
 // Buffers hold float, int or float4 (float3 takes 16 bytes in OpenCL, so it never lies in memory).
 // Parameters are pointers (WEFT_GLOBAL), float or int. Helpers take and return values and are
-// WEFT_INLINE.
+// WEFT_INLINE. What is C++ but no C (real3 x{...}, references, overloads) compiles, and is refused
+// when a run builds its kernels, or before by `./dev lint`.
 
 #if defined(__OPENCL_C_VERSION__)  // by the compiler; __OPENCL_VERSION__ only by a device
 #include "kernels/platform/opencl.h"

@@ -32,7 +32,7 @@ WEFT_INLINE nearness near_box(real3 p, float4 dimensions) {
     return near;
 }
 
-WEFT_OBSTACLE_KERNELS(box, near_box)
+WEFT_OBSTACLE_KERNELS(box)
 
 WEFT_KERNELS_END
 

@@ -13,7 +13,7 @@ WEFT_INLINE nearness near_capsule(real3 p, float4 dimensions) {
     return near_ball(make3(p.x, p.y - along, p.z), dimensions.x);
 }
 
-WEFT_OBSTACLE_KERNELS(capsule, near_capsule)
+WEFT_OBSTACLE_KERNELS(capsule)
 
 WEFT_KERNELS_END
 

@@ -1,8 +1,9 @@
 #ifndef WEFT_KERNELS_OBSTACLES_CONTACT_H
 #define WEFT_KERNELS_OBSTACLES_CONTACT_H
 
-// What all obstacle shapes share. A shape supplies one function, the signed distance of a point and
-// the normal there, in its own frame; WEFT_OBSTACLE_KERNELS makes its two kernels of it.
+// What all obstacle shapes share. A shape supplies one function, near_<shape>: the signed distance
+// of a point and the normal there, in its own frame; WEFT_OBSTACLE_KERNELS makes its two kernels of
+// it.
 
 #include "kernels/platform.h"
 #include "kernels/vector.h"
@@ -60,14 +61,14 @@ WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed
 /// previous    [vertices] xyz at the substep's start [m]
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
 /// obstacle    which one
-#define WEFT_OBSTACLE_KERNELS(shape, nearness_of)                                                  \
+#define WEFT_OBSTACLE_KERNELS(shape)                                                               \
     WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                                \
                 WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,             \
                 int substep) {                                                                     \
         WEFT_GLOBAL const float4* o =                                                              \
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
         const real4 x = load4(positions, i);                                                       \
-        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                 \
+        const nearness near = near_##shape(apply(o, xyz(x)), o[6]);                                \
         const real depth = push_depth(o, near.distance, x.w);                                      \
         store4(positions, i, with_w(add_scaled(xyz(x), apply_back(o, near.normal), depth), x.w));  \
     }                                                                                              \
@@ -78,7 +79,7 @@ WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed
         WEFT_GLOBAL const float4* o =                                                              \
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
         const real4 x = load4(positions, i);                                                       \
-        const nearness near = nearness_of(apply(o, xyz(x)), o[6]);                                 \
+        const nearness near = near_##shape(apply(o, xyz(x)), o[6]);                                \
         const real depth = push_depth(o, near.distance, x.w);                                      \
         const real3 normal = apply_back(o, near.normal);                                           \
         const real3 pushed = add_scaled(xyz(x), normal, depth);                                    \

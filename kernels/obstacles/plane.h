@@ -15,7 +15,7 @@ WEFT_INLINE nearness near_plane(real3 p, float4 dimensions) {
     return near;
 }
 
-WEFT_OBSTACLE_KERNELS(plane, near_plane)
+WEFT_OBSTACLE_KERNELS(plane)
 
 WEFT_KERNELS_END
 

@@ -9,7 +9,7 @@ WEFT_KERNELS_BEGIN
 /// A sphere around the origin; dimensions.x = radius.
 WEFT_INLINE nearness near_sphere(real3 p, float4 dimensions) { return near_ball(p, dimensions.x); }
 
-WEFT_OBSTACLE_KERNELS(sphere, near_sphere)
+WEFT_OBSTACLE_KERNELS(sphere)
 
 WEFT_KERNELS_END
 

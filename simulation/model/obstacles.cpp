@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "kernels/obstacles/box.h"
-#include "kernels/obstacles/capsule.h"
-#include "kernels/obstacles/plane.h"
-#include "kernels/obstacles/sphere.h"
+#include "kernels/obstacles/shapes.h"
 #include "simulation/model/convert.h"
 
 namespace weft {
@@ -36,10 +33,10 @@ Launch contact(Push push, Rub rub, const ContactArguments& a) {
 /// The kernels of each shape of obstacle_shapes.h.
 Launch contact_with(const std::string& shape, const ContactArguments& a) {
     using namespace kernels;
-    if (shape == "sphere") return contact(push_out_of_sphere, rub_on_sphere, a);
-    if (shape == "plane") return contact(push_out_of_plane, rub_on_plane, a);
-    if (shape == "capsule") return contact(push_out_of_capsule, rub_on_capsule, a);
-    if (shape == "box") return contact(push_out_of_box, rub_on_box, a);
+#define WEFT_TRY_SHAPE(name) \
+    if (shape == #name) return contact(push_out_of_##name, rub_on_##name, a);
+    WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
+#undef WEFT_TRY_SHAPE
     throw std::logic_error("obstacle shape '" + shape + "' has no kernel");
 }
 

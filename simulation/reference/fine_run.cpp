@@ -3,10 +3,7 @@
 // precision for all solvers, and here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdouble-promotion"
-#include "kernels/obstacles/box.h"
-#include "kernels/obstacles/capsule.h"
-#include "kernels/obstacles/plane.h"
-#include "kernels/obstacles/sphere.h"
+#include "kernels/obstacles/shapes.h"
 #pragma GCC diagnostic pop
 
 #include "simulation/reference/fine_run.h"
@@ -25,10 +22,10 @@ namespace weft {
 namespace {
 
 kernels::nearness near_obstacle(const std::string& shape, kernels::real3 p, float4 dimensions) {
-    if (shape == "sphere") return kernels::near_sphere(p, dimensions);
-    if (shape == "plane") return kernels::near_plane(p, dimensions);
-    if (shape == "capsule") return kernels::near_capsule(p, dimensions);
-    if (shape == "box") return kernels::near_box(p, dimensions);
+#define WEFT_TRY_SHAPE(name) \
+    if (shape == #name) return kernels::near_##name(p, dimensions);
+    WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
+#undef WEFT_TRY_SHAPE
     throw std::logic_error("obstacle shape '" + shape + "' has no distance in double precision");
 }
 

@@ -10,7 +10,8 @@
 namespace weft {
 
 /// One obstacle shape as scenes know it: its name, its keys, and how they become a frame and
-/// dimensions. A new shape is one entry in obstacle_shapes.cpp (and its distance in the kernels).
+/// dimensions. A new shape is one entry in obstacle_shapes.cpp, of the same name as in
+/// kernels/obstacles/shapes.h.
 struct ObstacleShape {
     std::string name;
     std::vector<Key> keys;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulation/scene/keys.h"
+#include "simulation/scene/obstacle_shapes.h"
 #include "simulation/scene/read_scene.h"
 
 namespace weft {
@@ -37,11 +38,14 @@ TEST(JsonSchema, CarriesTypesRangesUnitsAndDefaults) {
 TEST(JsonSchema, HasOneFormOfObstaclePerShape) {
     const json obstacle =
         json::parse(scene_json_schema()).at("properties").at("obstacle").at("items");
-    std::vector<std::string> shapes;
+    std::vector<std::string> forms;
     for (const json& form : obstacle.at("oneOf")) {
-        shapes.push_back(form.at("properties").at("shape").at("const"));
+        forms.push_back(form.at("properties").at("shape").at("const"));
     }
-    EXPECT_EQ(shapes, (std::vector<std::string>{"sphere", "plane", "capsule", "box"}));
+    std::vector<std::string> shapes;
+    for (const ObstacleShape& shape : obstacle_shapes()) shapes.push_back(shape.name);
+    EXPECT_EQ(forms, shapes);
+    EXPECT_GE(shapes.size(), 4U);
 }
 
 TEST(JsonSchema, EveryKeyIsExplained) {
