@@ -8,13 +8,14 @@ namespace weft::scheduler {
 struct ProbeSettings {
     std::uint32_t interval = 30;  ///< frames out of use after which a device may be probed
     double price_share = 0.01;    ///< part of the run time that probes may cost
-    double start_frames = 0.5;    ///< and at the start, this part of the first frame's time
+    double start_frames = 0.5;    ///< part of the first frame's time that is paid in advance
 };
 
 /// When to try a device that the plans leave out, since its costs may have been learnt in a bad
 /// moment. Probes are paid from a credit that grows with the run time: so their price is bounded,
 /// however slow the device is, and yet each device is probed again in the end. What is known at the
-/// start is from another time, so all devices are due then.
+/// start is from another time, so all devices are due then: the first probe may be paid from an
+/// advance, which the credit has to make good before the next one.
 class ProbePolicy {
 public:
     explicit ProbePolicy(std::uint32_t devices, const ProbeSettings& settings = {})
@@ -22,7 +23,7 @@ public:
 
     /// Call once per frame. seconds  what it took.
     void end_frame(double seconds) {
-        if (is_first_) credit_ += settings_.start_frames * seconds;
+        if (is_first_) advance_ = settings_.start_frames * seconds;
         is_first_ = false;
         credit_ += settings_.price_share * seconds;
         for (std::uint32_t& frames : idle_frames_) ++frames;
@@ -33,11 +34,12 @@ public:
     /// Whether to probe the device now.
     /// price  predicted seconds by which the frame gets longer; >= 0.
     bool due(std::uint32_t device, double price) const {
-        return idle_frames_[device] >= settings_.interval && price <= credit_;
+        return idle_frames_[device] >= settings_.interval && price <= credit_ + advance_;
     }
     /// A probe was made. price  as predicted, or as measured.
     void paid(std::uint32_t device, double price) {
         credit_ -= price;
+        advance_ = 0.0;
         idle_frames_[device] = 0;
     }
     /// Seconds that probes may cost now; negative after one that was dearer than predicted.
@@ -47,6 +49,7 @@ private:
     ProbeSettings settings_;
     bool is_first_ = true;
     double credit_ = 0.0;
+    double advance_ = 0.0;                    ///< until the first probe
     std::vector<std::uint32_t> idle_frames_;  // [device]
 };
 
