@@ -3,6 +3,7 @@
 option(WEFT_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(WEFT_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(WEFT_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
+option(WEFT_VALIDATE "Check Weft's own invariants (scheduler/assert.h)" OFF)
 option(WEFT_OCLGRIND "Add a ctest entry under oclgrind for each test of kernels" OFF)
 set(WEFT_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize=<value>: address,undefined or thread")
 set(WEFT_PYTHON "" CACHE FILEPATH "Python with cmake/packages/python.txt; empty: leave those tests out")
@@ -30,6 +31,10 @@ target_compile_features(weft_options INTERFACE cxx_std_20)
 # Strict arithmetic: the same bits on every device. A contracted a * b + c rounds once instead of
 # twice, and would differ from a device without fused multiply-add. No fast-math, ever, in C++.
 target_compile_options(weft_options INTERFACE -ffp-contract=off)
+
+if(WEFT_VALIDATE)
+  target_compile_definitions(weft_options INTERFACE $<BUILD_INTERFACE:WEFT_VALIDATE>)
+endif()
 
 if(WEFT_SANITIZE)
   target_compile_options(weft_options INTERFACE -fsanitize=${WEFT_SANITIZE}

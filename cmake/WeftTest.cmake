@@ -1,8 +1,12 @@
-# Tests. Labels: unit kernels scheduler determinism cli stability fuzz install bench-smoke timing.
+# Tests. Labels: unit kernels scheduler determinism cli cluster stability fuzz install bench-smoke
+# timing.
 #
 #   weft_test(NAME strips LABELS unit SOURCES strips_test.cpp LIBS weft::simulation)
 #       One GoogleTest program, test_<name>, and one ctest entry for all of it: a process builds
 #       its OpenCL programs anew, so an entry per suite is much faster than one per case.
+#
+#       SHARDS 6: six entries, <name>_0 to _5, of a sixth of the cases each. For a program that
+#       takes long: they run side by side, and a failure says sooner where it was.
 #
 #   weft_cli_test(NAME bad_scenes LABELS cli SCRIPT bad_scenes.sh)
 #       A script that drives the program `weft`: .sh (bash), .py (the Python of `./dev test`) or a
@@ -30,12 +34,22 @@ set(WEFT_TEST_ENVIRONMENT
     UBSAN_OPTIONS=print_stacktrace=1)
 
 function(weft_test)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;OCLGRIND_FILTER" "LABELS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;OCLGRIND_FILTER;SHARDS" "LABELS;SOURCES;LIBS" ${ARGN})
   add_executable(test_${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(test_${ARG_NAME} PRIVATE ${ARG_LIBS} weft::options weft::warnings
                                                  GTest::gtest_main)
-  add_test(NAME ${ARG_NAME} COMMAND test_${ARG_NAME})
-  weft_set_test_properties(${ARG_NAME} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+  if(ARG_SHARDS)
+    math(EXPR last "${ARG_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      add_test(NAME ${ARG_NAME}_${shard} COMMAND test_${ARG_NAME})
+      weft_set_test_properties(${ARG_NAME}_${shard} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+      set_property(TEST ${ARG_NAME}_${shard} APPEND PROPERTY ENVIRONMENT
+                   GTEST_TOTAL_SHARDS=${ARG_SHARDS} GTEST_SHARD_INDEX=${shard})
+    endforeach()
+  else()
+    add_test(NAME ${ARG_NAME} COMMAND test_${ARG_NAME})
+    weft_set_test_properties(${ARG_NAME} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+  endif()
 
   if(ARG_LABELS MATCHES "kernels|determinism" AND NOT ARG_OCLGRIND_FILTER STREQUAL "none")
     if(NOT ARG_OCLGRIND_FILTER)

@@ -30,17 +30,29 @@ layout() {
 }
 
 # kernels <- runtime -> scheduler; simulation -> all three; apps -> simulation. Scheduler is the
-# standard library and itself. Includes are written from the project's root.
+# standard library and itself. Includes are written from the project's root. A folder that has a row
+# of its own may include what the row says; files that lie beside folders may include all of these.
 include_directions() {
-  local layer allowed wrong=0
-  while read -r layer allowed; do
-    sources "$layer/*.h" "$layer/*.cpp" | xargs -r grep -nHE '^ *# *include +"' |
-      grep -vE "include +\"($allowed)/" && wrong=1
+  local folder allowed wrong=0
+  while read -r folder allowed; do
+    sources "$folder/*.h" "$folder/*.cpp" | xargs -r grep -nHE '^ *# *include +"' |
+      grep -vE "include +\"($allowed)[/\"]" && wrong=1
   done <<'TABLE'
 kernels    kernels
 scheduler  scheduler
 runtime    kernels|scheduler|runtime
+runtime/io kernels|runtime/error.h|runtime/io
 simulation kernels|scheduler|runtime|simulation
+simulation/mesh      runtime|simulation/mesh
+simulation/topology  scheduler/assert.h|runtime|simulation/topology
+simulation/scene     runtime|simulation/(mesh|scene|element_families.h)
+simulation/bodies    runtime|simulation/(mesh|scene|bodies)
+simulation/families  kernels|runtime|simulation/(mesh|scene|bodies|topology|families|element_families.h)
+simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
+simulation/solver    kernels|runtime|simulation/(mesh|scene|topology|families|model|solver)
+simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|reference)
+simulation/planning  kernels|scheduler|runtime|simulation/(solver|planning)
+simulation/output    runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps
 TABLE
   # A header of the standard library has neither a dot nor a slash in its name.

@@ -1,6 +1,11 @@
 #include "runtime/cores.h"
 
+#include <algorithm>
+
+#include <optional>
 #include <thread>
+
+#include "runtime/cpu_quota.h"
 
 #ifdef __linux__
 #include <sched.h>
@@ -8,7 +13,10 @@
 
 namespace weft {
 
-std::vector<int> usable_cores() {
+namespace {
+
+/// The cores that the calling thread may run on.
+std::vector<int> allowed_cores() {
     std::vector<int> cores;
 #ifdef __linux__
     cpu_set_t set;
@@ -25,6 +33,31 @@ std::vector<int> usable_cores() {
     return cores;
 }
 
+/// The first core that is taken where not all may be: the one that we run on at first, so that
+/// several containers of one machine do not all take the same ones.
+int first_core() {
+#ifdef __linux__
+    static const int core = sched_getcpu();
+    return core;
+#else
+    return 0;
+#endif
+}
+
+}  // namespace
+
+std::vector<int> usable_cores() {
+    std::vector<int> cores = allowed_cores();
+    static const std::optional<double> quota = cpu_quota();
+    const auto count = static_cast<std::size_t>(std::max(1.0, quota.value_or(1e9)));
+    if (count >= cores.size()) return cores;
+    const auto first = std::ranges::find_if(cores, [](int core) { return core >= first_core(); });
+    std::ranges::rotate(cores, first);
+    cores.resize(count);
+    std::ranges::sort(cores);
+    return cores;
+}
+
 void pin_thread([[maybe_unused]] const std::vector<int>& cores) {
 #ifdef __linux__
     if (cores.empty()) return;
@@ -37,7 +70,7 @@ void pin_thread([[maybe_unused]] const std::vector<int>& cores) {
 
 PinnedThread::PinnedThread(const std::vector<int>& cores) {
     if (cores.empty()) return;
-    before_ = usable_cores();
+    before_ = allowed_cores();
     pin_thread(cores);
 }
 

@@ -4,7 +4,8 @@
 
 namespace weft {
 
-/// The cores that this process may use, ascending.
+/// The cores that this process may use, ascending: those of its affinity, and of these no more than
+/// its quota of processor time is worth (cpu_quota.h), but one.
 std::vector<int> usable_cores();
 
 /// Keeps the calling thread on these cores; does nothing where the system cannot, or for no cores.

@@ -1,6 +1,7 @@
 #include "runtime/device_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <map>
 
@@ -30,14 +31,16 @@ namespace {
 struct Part {
     std::string text;
     bool is_cpu = false;
-    int index = -1;  ///< of an OpenCL device
-    int units = 0;   ///< 0: all that are free
+    int index = -1;         ///< of an OpenCL device
+    bool is_gpu = false;    ///< instead of an index: the first GPU
+    std::string name = {};  ///< instead of an index: a part of its name, or of its platform's
+    int units = 0;          ///< 0: all that are free
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
     throw UserError("--device: '" + text + "': " + why +
-                    "; a device is cpu, cpu/N, opencl, opencl:I, opencl:I/N or hybrid, "
-                    "several are joined by '+'");
+                    "; a device is cpu, gpu, opencl, opencl:I, opencl:NAME or hybrid, with /N at "
+                    "its end limited to N units (but hybrid); several are joined by '+'");
 }
 
 int to_number(const std::string& digits, const std::string& text, int least) {
@@ -48,6 +51,11 @@ int to_number(const std::string& digits, const std::string& text, int least) {
         refuse(text, "'" + digits + "' is not a number of at least " + std::to_string(least));
     }
     return value;
+}
+
+/// What begins with a digit or a sign is meant as a number; names do not.
+bool is_number(const std::string& text) {
+    return text.empty() || text.find_first_of("0123456789+-") == 0;
 }
 
 /// Splits off what stands behind `mark`.
@@ -70,12 +78,17 @@ constexpr int kBestDevice = -1;
 
 /// Only what the text itself says: no device is looked for.
 Part parse_part(const std::string& text) {
-    Part part{text};
+    Part part;
+    part.text = text;
     std::string rest = text;
     if (const auto units = cut_off(rest, '/')) part.units = to_number(*units, text, 1);
     const auto index = cut_off(rest, ':');
     if (rest == "cpu" && !index) {
         part.is_cpu = true;
+    } else if (rest == "gpu" && !index) {
+        part.is_gpu = true;
+    } else if (rest == "opencl" && index && !is_number(*index)) {
+        part.name = *index;
     } else if (rest == "opencl") {
         part.index = index ? to_number(*index, text, 0) : kBestDevice;
     } else {
@@ -84,31 +97,68 @@ Part parse_part(const std::string& text) {
     return part;
 }
 
+/// The texts between the '+'.
+std::vector<std::string> split(const std::string& list) {
+    std::vector<std::string> texts;
+    std::string rest = list;
+    while (true) {
+        const auto more = cut_off(rest, '+');
+        texts.push_back(rest);
+        if (!more) return texts;
+        rest = *more;
+    }
+}
+
 std::vector<Part> parse(const std::string& list) {
     std::vector<Part> parts;
-    std::size_t begin = 0;
-    while (true) {
-        const std::size_t end = list.find('+', begin);
-        const std::string text = list.substr(begin, end == std::string::npos ? end : end - begin);
+    for (const std::string& text : split(list)) {
         if (text == "hybrid") {
             for (Part& part : parse(hybrid_devices())) parts.push_back(std::move(part));
         } else {
             parts.push_back(parse_part(text));
         }
-        if (end == std::string::npos) return parts;
-        begin = end + 1;
     }
+    return parts;
 }
 
-/// Where all OpenCL parts say how many units they want, a driver on the CPU needs no more threads.
-void limit_driver(const std::vector<Part>& parts) {
-    int units = 0;
+/// How many of the cores OpenCL may take at most, as the list says it: no driver is asked yet.
+int most_opencl_units(const std::vector<Part>& parts, int cores) {
+    int opencl = 0;
+    int cpu = 0;
+    bool all_numbered = true;
     for (const Part& part : parts) {
-        if (part.is_cpu) continue;
-        if (part.units == 0) return;
-        units += part.units;
+        (part.is_cpu ? cpu : opencl) += part.is_cpu ? std::max(part.units, 1) : part.units;
+        all_numbered = all_numbered && (part.is_cpu || part.units > 0);
     }
-    if (units > 0) limit_cpu_driver(units);
+    return std::clamp(all_numbered ? opencl : cores - cpu, 1, cores);
+}
+
+bool touches_opencl(const std::vector<Part>& parts) {
+    return !std::ranges::all_of(parts, [](const Part& part) { return part.is_cpu; });
+}
+
+bool contains_word(std::string text, std::string word) {
+    const auto lower = [](std::string& t) {
+        std::ranges::transform(t, t.begin(), [](unsigned char c) { return std::tolower(c); });
+    };
+    lower(text);
+    lower(word);
+    return text.find(word) != std::string::npos;
+}
+
+/// By its name or its kind: numbers shift when a job's engine hides devices.
+int find_described(const Part& part, const std::vector<OpenClDeviceSummary>& devices) {
+    const auto fits = [&](const OpenClDeviceSummary& device) {
+        if (part.is_gpu) return device.is_gpu;
+        return contains_word(device.name, part.name) || contains_word(device.platform, part.name);
+    };
+    const auto found = std::ranges::find_if(devices, fits);
+    if (found != devices.end()) return static_cast<int>(found - devices.begin());
+    std::string there;
+    for (const auto& device : devices) there += (there.empty() ? "" : ", ") + device.name;
+    refuse(part.text,
+           (part.is_gpu ? "no OpenCL device is a GPU" : "no OpenCL device is called so") +
+               std::string("; there is ") + there);
 }
 
 /// Finds the devices that the parts mean.
@@ -120,7 +170,10 @@ void find_devices(std::vector<Part>& parts) {
             refuse(part.text,
                    "no OpenCL platform was found (is a driver such as pocl-opencl-icd installed?)");
         }
-        if (part.index == kBestDevice) part.index = best_of(devices);
+        if (part.is_gpu || !part.name.empty())
+            part.index = find_described(part, devices);
+        else if (part.index == kBestDevice)
+            part.index = best_of(devices);
         const int count = static_cast<int>(devices.size());
         if (part.index >= count) {
             refuse(part.text, "the last OpenCL device is opencl:" + std::to_string(count - 1) +
@@ -128,7 +181,9 @@ void find_devices(std::vector<Part>& parts) {
         }
         const int units = devices[static_cast<std::size_t>(part.index)].units;
         if (part.units > units) {
-            refuse(part.text, "this device has " + std::to_string(units) + " compute units");
+            refuse(part.text, "this device has " + std::to_string(units) +
+                                  (units == 1 ? " compute unit" : " compute units") +
+                                  " that this process may use");
         }
     }
 }
@@ -169,10 +224,10 @@ public:
         : parts_(std::move(parts)), options_(options), free_cores_(usable_cores()) {}
 
     std::vector<std::unique_ptr<Device>> open() {
-        limit_driver(parts_);
-        find_devices(parts_);
-        share_cores(parts_, static_cast<int>(free_cores_.size()));
-        open_opencl();
+        if (touches_opencl(parts_))
+            find_and_open_opencl();
+        else
+            share_cores(parts_, static_cast<int>(free_cores_.size()));
         std::vector<std::unique_ptr<Device>> devices;
         for (const Part& part : parts_) {
             devices.push_back(part.is_cpu ? open_cpu(part.units) : next_opencl(part.index));
@@ -181,8 +236,21 @@ public:
     }
 
 private:
-    /// All parts of one OpenCL device are divided off it at once. They take its first units, and
-    /// those are the first cores: what is left for TBB are the last.
+    /// OpenCL has the first cores, and TBB what is left. Drivers on the CPU make their threads when
+    /// they are found (PoCL 3.1) or when a context is made: these inherit the cores of the thread
+    /// that asks. (POCL_AFFINITY would bind thread i to the machine's core i, whatever this process
+    /// may use.)
+    void find_and_open_opencl() {
+        const int cores = static_cast<int>(free_cores_.size());
+        const int units = most_opencl_units(parts_, cores);
+        limit_cpu_driver(units);
+        const PinnedThread here({free_cores_.begin(), free_cores_.begin() + units});
+        find_devices(parts_);
+        share_cores(parts_, cores);
+        open_opencl();
+    }
+
+    /// All parts of one OpenCL device are divided off it at once, from its first unit on.
     void open_opencl() {
         std::map<int, std::vector<int>> units;
         for (const Part& part : parts_) {
@@ -230,6 +298,12 @@ private:
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
                                                   const DeviceOptions& options) {
     return Opener(parse(list), options).open();
+}
+
+void check_device_list(const std::string& list) {
+    for (const std::string& text : split(list)) {
+        if (text != "hybrid") parse_part(text);
+    }
 }
 
 std::vector<std::string> available_devices() {

@@ -25,11 +25,17 @@ struct DeviceOptions {
 ///   cpu, cpu/N            TBB on all free cores, or on N
 ///   opencl                the first GPU, or else the first OpenCL device
 ///   opencl:I, opencl:I/N  device I of `weft devices`, whole or limited to N compute units
+///   opencl:NAME           the first whose name, or whose platform's, holds it; any case
+///   gpu                   the first GPU
 ///   hybrid                the CPU and the best OpenCL device; the CPU alone where there is none
 /// OpenCL devices that are the CPU itself and the TBB devices get cores of their own. Throws
 /// UserError for a list that cannot be had. OpenCL is not touched unless the list asks for it.
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
                                                   const DeviceOptions& options = {});
+
+/// Throws UserError where a list is not well formed. No device is looked for: the machine that it
+/// is meant for may be another one.
+void check_device_list(const std::string& list);
 
 /// Every single device of this machine as list elements: "cpu", "opencl:0", ...
 std::vector<std::string> available_devices();

@@ -5,8 +5,28 @@
 
 #include "runtime/clock.h"
 #include "runtime/cores.h"
+#include "scheduler/assert.h"
 
 namespace weft {
+
+namespace {
+
+/// Whether every task has a device, and starts after those that it waits for.
+[[maybe_unused]] bool fits(const Step& step, const scheduler::Plan& plan, std::size_t devices) {
+    const auto& placements = plan.placements;
+    if (placements.size() != step.tasks().size()) return false;
+    const auto is_there = [&](const scheduler::Placement& p) {
+        return p.processor < devices && p.start <= p.end;
+    };
+    const auto is_in_order = [&](const Dependency& d) {
+        return placements[static_cast<std::size_t>(d.from)].start <=
+               placements[static_cast<std::size_t>(d.to)].start;
+    };
+    return std::ranges::all_of(placements, is_there) &&
+           std::ranges::all_of(step.dependencies(), is_in_order);
+}
+
+}  // namespace
 
 /// The submission of one run.
 class Executor::Run {
@@ -22,6 +42,7 @@ public:
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(),
                          [&](int a, int b) { return placement(a).start < placement(b).start; });
+        WEFT_ASSERT(fits(step, plan, executor.devices_.size()));
         previous_.resize(order_.size(), nullptr);
         current_.resize(order_.size(), nullptr);
         group(step.dependencies(), within_);

@@ -1,17 +1,62 @@
 #include "runtime/step.h"
 
 #include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <string>
 
 namespace weft {
 
 namespace {
 
+/// Tables are known by where they lie; null stands for a buffer's elements.
+bool same_table(const Segments* a, const Segments* b) {
+    if (a == nullptr || b == nullptr) return a == b;
+    return a->begin == b->begin && a->first == b->first;
+}
+
 bool same_units(const Access& a, const Access& b) {
-    if (a.buffer != b.buffer) return false;
-    const auto key = [](const Access& access) {
-        return access.segments == nullptr ? -1 : access.segments->first;
-    };
-    return key(a) == key(b);
+    return a.buffer == b.buffer && same_table(a.segments, b.segments);
+}
+
+/// Whether no item of one table is an item of the other.
+bool apart(const Segments* a, const Segments* b) {
+    if (a == nullptr || b == nullptr || a->begin != b->begin) return false;
+    return a->item(a->strip_count) <= b->item(0) || b->item(b->strip_count) <= a->item(0);
+}
+
+[[noreturn]] void refuse(const Task& task, const Access& access, const std::string& why) {
+    throw std::logic_error("task '" + task.body->name + "', buffer '" + access.buffer->name() +
+                           "', access [" + std::to_string(access.begin) + ", " +
+                           std::to_string(access.end) + "): " + why);
+}
+
+/// Accesses in different units cannot be compared: so a buffer has one, or tables of it that share
+/// no item.
+void refuse_mixed_units(const std::vector<Task>& tasks) {
+    std::map<const BufferStorage*, std::vector<const Segments*>> tables;
+    for (const Task& task : tasks) {
+        for (const Access& access : task.accesses) {
+            auto& known = tables[access.buffer];
+            const auto is_same = [&](const Segments* t) { return same_table(t, access.segments); };
+            if (std::ranges::any_of(known, is_same)) continue;
+            for (const Segments* other : known) {
+                if (!apart(other, access.segments))
+                    refuse(task, access, "in units of another kind");
+            }
+            known.push_back(access.segments);
+        }
+    }
+}
+
+/// The range must lie within the buffer.
+void refuse_outside(const Task& task, const Access& access) {
+    const Segments* s = access.segments;
+    const auto size = static_cast<int>(access.buffer->count());
+    if (access.begin < 0 || access.end > (s == nullptr ? size : s->strip_count)) {
+        refuse(task, access, "there is no such part");
+    }
+    if (s != nullptr && s->item(access.end) > size) refuse(task, access, "items beyond its end");
 }
 
 int overlap(const Access& a, const Access& b) {
@@ -38,9 +83,10 @@ double conflict(const Task& first, const Task& second) {
 }  // namespace
 
 Step::Adding& Step::Adding::access(const Access& access) {
-    if (access.begin < access.end) {
-        step_.tasks_[static_cast<std::size_t>(task_)].accesses.push_back(access);
-    }
+    if (access.begin >= access.end) return *this;
+    Task& task = step_.tasks_[static_cast<std::size_t>(task_)];
+    refuse_outside(task, access);
+    task.accesses.push_back(access);
     return *this;
 }
 
@@ -70,6 +116,7 @@ Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int
 }
 
 void Step::seal() {
+    refuse_mixed_units(tasks_);
     // Two instances in a row; a dependency is kept unless it follows from others already. The
     // transitive ones are found through the set of tasks that each task is known to come after.
     const int count = static_cast<int>(tasks_.size());

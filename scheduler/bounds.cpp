@@ -71,8 +71,8 @@ void LowerBounds::find_heads(const TaskGraph& graph) {
 
 // The area bound is the value of a game: the planner picks a distribution over assignments of all
 // tasks (each a vector of loads), the adversary picks weights of processors. As a linear program,
-//     min T  with  T - sum_k x_k load_k[p] - slack_p = 0 for every p,  sum_k x_k = 1,  x, slack >=
-//     0.
+//     min T  with  T - sum_k x_k load_k[p] - slack_p = 0 for every p,
+//                  sum_k x_k = 1,  x >= 0,  slack >= 0.
 // Its assignments are far too many to list, but the one that helps most under the present dual
 // weights is found by giving every task to the processor where its weighted cost is least.
 // The basis has processors + 1 columns; T is always the basic variable of row 0.

@@ -11,15 +11,15 @@ namespace weft::scheduler {
 /// Bounds that no schedule of a graph can beat.
 ///
 /// Path: with unlimited copies of every processor, a task on processor p cannot end before
-///     head(t, p) = cost(t, p) + max over predecessors u of min over q of (head(u, q) + comm(u, t,
-///     q, p)),
+///     head(t, p) = cost(t, p) + max over predecessors u of
+///                               min over q of (head(u, q) + comm(u, t, q, p)),
 /// and from its start to the end of all it takes at least tail(t, p), which is the same over its
 /// successors. So no schedule is shorter than the largest over all tasks of
 ///     min over p of (head(t, p) + tail(t, p) - cost(t, p)).
 ///
 /// Area: if all edges are dropped and tasks may be split at will, the best balance of the
-/// processors' loads is a linear program; its dual is the largest over all weights w >= 0, sum w =
-/// 1, of
+/// processors' loads is a linear program; its dual is the largest, over all weights w >= 0 whose
+/// sum is 1, of
 ///     sum over tasks of min over p of w_p cost(t, p).
 /// Every w gives a valid bound. The best one is found by column generation: exactly (to
 /// 1e-9), or to 1e-4 for more than 200 tasks.

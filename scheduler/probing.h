@@ -21,7 +21,8 @@ public:
     explicit ProbePolicy(std::uint32_t devices, const ProbeSettings& settings = {})
         : settings_(settings), idle_frames_(devices, settings.interval) {}
 
-    /// Call once per frame. seconds  what it took.
+    /// Call once per frame.
+    /// seconds  what it took
     void end_frame(double seconds) {
         if (is_first_) advance_ = settings_.start_frames * seconds;
         is_first_ = false;
@@ -36,7 +37,8 @@ public:
     bool due(std::uint32_t device, double price) const {
         return idle_frames_[device] >= settings_.interval && price <= credit_ + advance_;
     }
-    /// A probe was made. price  as predicted, or as measured.
+    /// A probe was made.
+    /// price  as predicted, or as measured [s]
     void paid(std::uint32_t device, double price) {
         credit_ -= price;
         advance_ = 0.0;

@@ -36,8 +36,8 @@ private:
 };
 
 /// Optimistic cost table of PEFT (Arabnejad, Barbosa 2014, eq. 4 and 5):
-///     oct(i, p) = max over successors j of min over q of (oct(j, q) + w(j, q) + (q == p ? 0 :
-///     c_ij)),
+///     oct(i, p) = max over successors j of
+///                 min over q of (oct(j, q) + w(j, q) + (q == p ? 0 : c_ij)),
 /// and as rank its average over the processors that can run the task.
 /// table  [task][processor]
 void optimistic_cost_table(const TaskGraph& graph, std::vector<double>& table,

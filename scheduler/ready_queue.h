@@ -11,7 +11,8 @@ namespace weft::scheduler {
 /// topological order.
 class ReadyQueue {
 public:
-    /// Both arguments must outlive the walk.  priority  [task]
+    /// Both arguments must outlive the walk.
+    /// priority  [task]
     void begin(const TaskGraph& graph, std::span<const double> priority);
 
     bool empty() const { return heap_.empty(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,15 +19,12 @@ struct Energies {
 
 /// Names of the element energies that the model has.
 std::vector<std::string> energy_names(const Model& model);
-Energies measure_energies(const Model& model, double time);
+/// Of a state at a time [s]: x y z and inverse mass, and velocities, in the new order. May run
+/// while the model goes on.
+Energies measure_energies(const Model& model, std::span<const float4> positions,
+                          std::span<const float4> velocities, double time);
 
-/// A state that is no state: what is wrong with which vertex.
-struct BadState {
-    int vertex = 0;  ///< new order
-    std::string what;
-};
-
-/// The first vertex that is not finite, too fast, or at the end of an overstretched edge; by the
+/// The first vertex that is not finite, too fast, or at an overstretched element; by the
 /// bounds of the scene's [guard].
 std::optional<BadState> find_bad_state(const Model& model);
 /// Only whether positions are finite: what can be said in mid-substep.

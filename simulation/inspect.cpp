@@ -6,6 +6,7 @@
 
 #include "runtime/trace/tables.h"
 #include "simulation/diagnostics.h"
+#include "simulation/families/builder.h"
 #include "simulation/scene/obstacle_shapes.h"
 
 namespace weft {
@@ -99,32 +100,32 @@ class LeftOutList {
 public:
     explicit LeftOutList(const KernelSet& used) {
         for (const KernelInfo* kernel : kernels::all_kernels()) {
-            if (used.count(kernel) == 0) unused_.emplace_back(kernel->name);
+            if (used.count(kernel) == 0) unused_.push_back(kernel);
         }
     }
 
-    void add(const std::string& what, const std::string& why,
-             const std::function<bool(const std::string&)>& claims) {
+    using Claims = std::function<bool(const KernelInfo&)>;
+    void add_with(const std::string& what, const std::string& why, const Claims& claims) {
         Inspection::LeftOut entry{what, why, {}};
-        std::erase_if(unused_, [&](const std::string& kernel) {
-            if (!claims(kernel)) return false;
-            entry.kernels.push_back(kernel);
+        std::erase_if(unused_, [&](const KernelInfo* kernel) {
+            if (!claims(*kernel)) return false;
+            entry.kernels.emplace_back(kernel->name);
             return true;
         });
         list_.push_back(std::move(entry));
     }
     void add(const std::string& what, const std::string& why, const std::string& kernel = "") {
-        add(what, why, [&](const std::string& name) { return name == kernel; });
+        add_with(what, why, [&](const KernelInfo& info) { return info.name == kernel; });
     }
 
     std::vector<Inspection::LeftOut> take(const std::string& why_the_rest) {
         if (!unused_.empty())
-            add("other kernels", why_the_rest, [](const std::string&) { return true; });
+            add_with("other kernels", why_the_rest, [](const KernelInfo&) { return true; });
         return std::move(list_);
     }
 
 private:
-    std::vector<std::string> unused_;
+    std::vector<const KernelInfo*> unused_;
     std::vector<Inspection::LeftOut> list_;
 };
 
@@ -133,48 +134,37 @@ bool any_of(const Range& range, Test test) {
     return std::any_of(range.begin(), range.end(), test);
 }
 
-std::function<bool(const std::string&)> is_about(const std::string& word) {
-    return [word](const std::string& kernel) { return kernel.find(word) != std::string::npos; };
+/// A family's kernels stand in files of its name: kernels/<method>/<family>.h
+bool is_of(const KernelInfo& kernel, const std::string& family) {
+    return kernel.file.ends_with("/" + family + ".h");
 }
 
 void add_elements(LeftOutList& list, const Model& model) {
-    if (!model.springs) {
-        list.add("springs", "no cloth has stretch.stiffness, and nothing is attached",
-                 is_about("spring"));
+    for (const auto& builder : make_family_builders()) {
+        const std::string& family = builder->names().name;
+        const bool exists =
+            any_of(model.families, [&](const auto& f) { return f->names().name == family; });
+        for (const Absence& absence : builder->absences(model.scene, exists)) {
+            list.add_with(absence.what, absence.why, [&](const KernelInfo& kernel) {
+                return absence.has_kernels && is_of(kernel, family);
+            });
+        }
     }
-    if (!model.membranes) list.add("membranes", "no cloth has a membrane", is_about("membrane"));
-    if (!model.tetrahedra) list.add("solids", "the scene has no [[solid]]", is_about("tetrahedr"));
-    if (model.scene.attachments.empty()) {
-        list.add("attachments", "the scene has no [[attachment]]");
-    }
-}
-
-void add_bending(LeftOutList& list, const Model& model) {
-    if (model.hinges) return;
-    const bool asked =
-        any_of(model.scene.cloths, [](const Cloth& c) { return c.bend.has_value(); });
-    list.add("bending",
-             asked ? "no edge lies between exactly two triangles"
-                   : "no cloth has bend.stiffness above 0",
-             [](const std::string& kernel) {
-                 return kernel.find("hinge") != std::string::npos ||
-                        kernel.find("bending") != std::string::npos;
-             });
 }
 
 void add_obstacles(LeftOutList& list, const Model& model) {
     const std::string push = "push_out_of_";
     const std::string rub = "rub_on_";
-    const auto is_rub = [&](const std::string& kernel) { return kernel.starts_with(rub); };
+    const auto is_rub = [&](const KernelInfo& kernel) { return kernel.name.starts_with(rub); };
     if (!model.obstacles) {
-        list.add("obstacles", "the scene has no [[obstacle]]", [&](const std::string& kernel) {
-            return kernel.starts_with(push) || is_rub(kernel);
+        list.add_with("obstacles", "the scene has no [[obstacle]]", [&](const KernelInfo& kernel) {
+            return kernel.name.starts_with(push) || is_rub(kernel);
         });
         list.add("friction", "the scene has no [[obstacle]]");
         return;
     }
     if (!model.obstacles->have_friction()) {
-        list.add("friction", "no obstacle has friction above 0", is_rub);
+        list.add_with("friction", "no obstacle has friction above 0", is_rub);
     }
     for (const ObstacleShape& shape : obstacle_shapes()) {
         const auto is_shape = [&](const Obstacle& o) { return o.shape == shape.name; };
@@ -182,10 +172,10 @@ void add_obstacles(LeftOutList& list, const Model& model) {
         const auto rough = [&](const Obstacle& o) { return is_shape(o) && o.friction.has_value(); };
         const auto& obstacles = model.scene.obstacles;
         if (!any_of(obstacles, is_shape)) {
-            list.add("shape " + shape.name, "no obstacle has this shape",
-                     [&](const std::string& kernel) {
-                         return kernel == push + shape.name || kernel == rub + shape.name;
-                     });
+            list.add_with(
+                "shape " + shape.name, "no obstacle has this shape", [&](const KernelInfo& kernel) {
+                    return kernel.name == push + shape.name || kernel.name == rub + shape.name;
+                });
         } else if (!any_of(obstacles, smooth)) {
             list.add(shape.name + " without friction", "every such obstacle has friction",
                      push + shape.name);
@@ -215,7 +205,6 @@ void add_damping(LeftOutList& list, const Model& model) {
 std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelSet& used) {
     LeftOutList list(used);
     add_elements(list, model);
-    add_bending(list, model);
     add_obstacles(list, model);
     add_pins(list, model);
     add_damping(list, model);

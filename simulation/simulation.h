@@ -10,9 +10,9 @@
 #include "runtime/device_list.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
-#include "simulation/output/checkpoint.h"
 #include "simulation/planning/division.h"
 #include "simulation/planning/plan_kind.h"
+#include "simulation/snapshots.h"
 #include "simulation/solver/solver.h"
 
 namespace weft {
@@ -20,8 +20,7 @@ namespace weft {
 class DeviceLost;
 class Executor;
 class FramePlanner;
-class PlanLog;
-struct FramePlan;
+class FrameRecorder;
 struct RunTimes;
 
 struct SimulationOptions {
@@ -31,6 +30,13 @@ struct SimulationOptions {
     std::optional<Division> division;  ///< fixed instead of planned
     std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
+};
+
+/// What a frame's record holds besides times, makespans and bytes. Each takes time between frames.
+struct FrameDetails {
+    bool tasks = true;  ///< plan, executions, costs, links, transfers
+    bool energies = true;
+    bool state_hash = false;
 };
 
 /// A device that failed in mid-run and was left out from there on.
@@ -50,11 +56,17 @@ public:
                const SimulationOptions& options, Warnings& warnings);
     ~Simulation();
 
-    /// Simulates the next frame: plans, runs all substeps, checks the state, measures energies.
-    /// If a device fails, the frame is done again from its start on the others, with the same
-    /// result. Throws RunError if none is left, or the state went bad; then the state is that of
-    /// the frame's start.
-    FrameRecord advance();
+    /// Simulates the next frame: plans, runs all substeps, checks the state, and measures what the
+    /// details ask for. The record's end is that of the call, and its parts add up to it. If a
+    /// device fails, the frame is done again from its start on the others, with the same result.
+    /// Throws RunError if none is left, or the state went bad; then the state is that of the
+    /// frame's start.
+    FrameRecord advance(const FrameDetails& details = {});
+    /// The state between two frames, for those who look at it while the simulation goes on.
+    std::shared_ptr<const SimulationState> snapshot() const;
+    double time() const { return frame_ * model_->scene.dt; }  ///< simulated so far [s]
+    /// Seconds since the start, as records count them.
+    double clock() const;
     /// The devices that failed so far.
     const std::vector<LostDevice>& losses() const { return losses_; }
     /// The state between two frames, all of it.
@@ -89,26 +101,22 @@ public:
     std::string hash() const;
 
 private:
-    struct State {
-        std::vector<float4> positions, velocities;
-        std::vector<std::vector<std::byte>> solver;  ///< as Solver::state()
-    };
-    State save() const;
-    void write(const State& state);
-    void restore(const State& state);
+    void restore(const SimulationState& state);
 
-    double frame_time() const { return frame_ * model_->scene.dt; }
     void place();
+    void hand_over_placed();
     void calibrate(bool costs_known);
     void fetch();
     std::vector<Device*> active_devices() const;
     void open_executor();
     bool restore_costs();
-    FrameRecord advance_from(const State& start);
-    void go_on_without(const DeviceLost& lost, const State& start);
-    FrameRecord record(const FramePlan& plan, const RunTimes& times) const;
-    /// Runs the frame again from its start, task by task, to the first bad value; throws.
-    [[noreturn]] void diagnose(const State& start);
+    void advance_from_start(const FrameDetails& details, FrameRecord& frame);
+    RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
+    void begin_frame();
+    void end_part(FrameRecord& frame, double& part) const;
+    void go_on_without(const DeviceLost& lost);
+    /// Throws RunError if the state is none.
+    void check();
 
     SimulationOptions options_;
     std::vector<std::unique_ptr<Device>> devices_;
@@ -119,7 +127,11 @@ private:
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<FramePlanner> planner_;
-    std::unique_ptr<PlanLog> plan_log_;
+    std::unique_ptr<FrameRecorder> recorder_;
+    mutable Snapshots snapshots_;
+    std::shared_ptr<const SimulationState> start_;  ///< of the frame at hand
+    /// Of the present state; null: none was asked for yet.
+    mutable std::shared_ptr<const SimulationState> snapshot_;
     int frame_ = 0;
 };
 

@@ -1,4 +1,4 @@
-"""python -m weft_analysis schedule|makespan|energy TRACE -o out.png, and surface GEOMETRY"""
+"""python -m weft_analysis makespan|energy TRACE -o out.png, surface GEOMETRY, sweep CSV"""
 
 import argparse
 import sys
@@ -11,18 +11,20 @@ def main(arguments=None):
     # Imported late: matplotlib takes a second, and a wrong path should not.
     import matplotlib
     matplotlib.use("Agg")
-    from . import pictures, surface
+    from . import pictures, surface, sweep
 
     try:
         if options.command == "surface":
             figure = surface.surface(options.geometry, options.step)
             figure.savefig(options.output, dpi=150)
             return 0
+        if options.command == "sweep":
+            figure = sweep.plot(sweep.read(options.results), options.x, options.y, options.colour,
+                                options.panel)
+            figure.savefig(options.output, dpi=150)
+            return 0
         with Trace(options.trace) as trace:
-            if options.command == "schedule":
-                figure = pictures.schedule(trace, options.frame, options.substep)
-            else:
-                figure = getattr(pictures, options.command)(trace)
+            figure = getattr(pictures, options.command)(trace)
         figure.savefig(options.output, dpi=150)
         pictures.close(figure)
     except (TraceError, OSError, ValueError) as error:
@@ -36,7 +38,6 @@ def _parse(arguments):
                                      description="Draws the trace of a run of Weft.")
     commands = parser.add_subparsers(dest="command", required=True)
     descriptions = {
-        "schedule": "one substep by device: planned above measured",
         "makespan": "planned against measured makespan over the frames",
         "energy": "the energies over simulated time",
     }
@@ -49,9 +50,14 @@ def _parse(arguments):
     drawn.add_argument("geometry", metavar="GEOMETRY", help="frames.vtkhdf of a run")
     drawn.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
     drawn.add_argument("--step", type=int, help="0 is the start; default: the last one")
-    schedule = commands.choices["schedule"]
-    schedule.add_argument("--frame", type=int, help="its number; default: the last complete one")
-    schedule.add_argument("--substep", type=int, default=0, help="default: 0")
+    swept = commands.add_parser("sweep", help="small multiples over the axes of a sweep",
+                                description="Draws results.csv of weft batch --collect.")
+    swept.add_argument("results", metavar="CSV", help="results.csv of a sweep")
+    swept.add_argument("--x", required=True, help="column: an axis, as in solver.iterations")
+    swept.add_argument("--y", required=True, help="column: a result, as in ms_per_frame")
+    swept.add_argument("--colour", help="column: a colour per value")
+    swept.add_argument("--panel", help="column: a panel per value")
+    swept.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
     return parser.parse_args(arguments)
 
 

@@ -53,10 +53,17 @@ class Trace:
         self._file.close()
 
     def table(self, name, frame=None):
-        """Rows of a table, of all complete frames or of one; none if there is no such table."""
+        """Rows of a table, of all complete frames or of one; none if there is no such table.
+
+        `divisions` and `dependencies` have rows by task graph: these are the graphs that the
+        frames name. A frame without a recorded graph has none.
+        """
         if name not in self._file:
             return numpy.empty(0, dtype=[("frame", numpy.uint32)])
         data = self._file[name]
+        if "graph" in data.dtype.names and "frame" not in data.dtype.names:
+            chosen = self.frames if frame is None else self.frames[self.frames["frame"] == frame]
+            return data[numpy.isin(data.fields("graph")[:], chosen["graph"])]
         numbers = data.fields("frame")[:]
         if frame is None:
             last = self.frames["frame"][-1] if len(self.frames) else -1

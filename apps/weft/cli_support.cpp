@@ -101,8 +101,8 @@ void add_device_options(CLI::App& command, RunOptions& options) {
     const std::string group = "Devices";
     command
         .add_option("--device", options.device,
-                    "cpu, opencl, hybrid, or parts joined by '+', as in cpu/1+opencl:0/1: one "
-                    "core, and one compute unit of OpenCL device 0")
+                    "cpu, gpu, opencl, opencl:NAME, hybrid, or parts joined by '+', as in "
+                    "cpu/1+opencl:0/1: one core, and one compute unit of OpenCL device 0")
         ->type_name("LIST")
         ->capture_default_str()
         ->group(group);

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/weft/run_options.h"
+#include "apps/weft/studies/error_study.h"
 
 namespace weft {
 
@@ -27,6 +28,9 @@ void add_talk_options(CLI::App& command, RunOptions& options);
 
 /// All four of the above, and --print-schema.
 void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Those of `weft error`, which error_command.cpp adds.
+void add_error_options(CLI::App& command, ErrorOptions& options);
 
 /// Accepts one of `choices`; otherwise suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> choices);

@@ -6,9 +6,10 @@ class App;
 
 /// Every subcommand of weft, one file each (<name>_command.cpp). A function adds its subcommand,
 /// with its options, its help with an example, and a callback that does the work. It throws
-/// UserError or RunError; main.cpp turns these into messages and exit codes.
+/// UserError or RunError; program.cpp turns these into messages and exit codes.
 namespace weft {
 
+void add_batch_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_devices_command(CLI::App& app);
 void add_error_command(CLI::App& app);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,8 +10,8 @@
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/comparison.h"
+#include "apps/weft/output_file.h"
 #include "runtime/device_list.h"
-#include "runtime/error.h"
 
 namespace weft {
 
@@ -56,21 +55,15 @@ Comparison compare(const CompareOptions& options, const std::vector<std::string>
     for (std::size_t w = 0; w < workers.size(); ++w) {
         const int skipped = std::min(kWarmUp, scene.frames - 1);
         frames[w].erase(frames[w].begin(), frames[w].begin() + skipped);
-        rows.push_back(make_row(lists[w], frames[w], workers[w]->state_hash()));
+        rows.push_back(make_row(lists[w], frames[w], workers[w]->end_state()));
     }
     return compare_rows(scene.name, std::move(rows));
 }
 
-/// Whole or not at all.
 void write_json(const std::filesystem::path& folder, const nlohmann::ordered_json& json) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    const std::filesystem::path path = folder / "compare.json";
-    const std::filesystem::path part = folder / "compare.json.part";
-    std::ofstream out(part);
-    out << json.dump(2) << '\n';
-    if (!out.flush()) throw UserError("--out: cannot write " + part.string());
-    std::filesystem::rename(part, path);
+    write_output(folder / "compare.json", json.dump(2) + '\n');
 }
 
 void warn_of_different_states(const Comparison& comparison) {
@@ -114,7 +107,9 @@ void add_compare_command(CLI::App& app) {
     command->add_option("--out", options->run.out, "folder of compare.json (out/<scene name>)");
     command->footer(
         "Every list runs in a process of its own, and they take turns frame by frame, so that a\n"
-        "change of the machine's speed meets all alike. The first 3 frames do not count.\n"
+        "change of the machine's speed meets all alike. The first 3 frames do not count. A "
+        "frame's\n"
+        "time is all that it takes but output; planned and measured are makespans.\n"
         "efficiency = the mixture's speed / the sum of the speeds of its devices alone.\n\n"
         "Example:\n"
         "  weft compare scenes/tablecloth.toml --devices cpu/1,opencl:0/1,cpu/2,cpu/1+opencl:0/1");

@@ -33,20 +33,20 @@ std::vector<std::string> devices_of(const std::string& list) {
 }
 
 ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample>& frames,
-                       const std::string& state_hash) {
+                       const EndState& end) {
     const auto mixed =
         std::count_if(frames.begin(), frames.end(), [](const FrameSample& f) { return f.mixed; });
     ComparisonRow row;
     row.devices = devices;
     row.plan = 2 * static_cast<std::size_t>(mixed) > frames.size() ? "mixture" : "single";
-    row.ms_per_frame = quantile(frames, &FrameSample::total, 0.5);
-    row.ms_p95 = quantile(frames, &FrameSample::total, 0.95);
+    row.ms_per_frame = quantile(frames, &FrameSample::wall, 0.5);
+    row.ms_p95 = quantile(frames, &FrameSample::wall, 0.95);
     row.planned_ms = quantile(frames, &FrameSample::planned, 0.5);
     row.measured_ms = quantile(frames, &FrameSample::measured, 0.5);
     row.plan_us = 1e3 * quantile(frames, &FrameSample::plan, 0.5);
     row.utilisation = quantile(frames, &FrameSample::utilisation, 0.5);
-    row.energy = frames.back().energy;
-    row.state_hash = state_hash;
+    row.energy = end.energy;
+    row.state_hash = end.hash;
     return row;
 }
 

@@ -12,10 +12,10 @@ namespace weft {
 /// What one device list took; times are medians over the frames [ms].
 struct ComparisonRow {
     std::string devices;
-    std::string plan;  ///< what the planner mostly chose: "mixture" or "single"
-    double ms_per_frame = 0.0;
+    std::string plan;           ///< what the planner mostly chose: "mixture" or "single"
+    double ms_per_frame = 0.0;  ///< wall time
     double ms_p95 = 0.0;
-    double planned_ms = 0.0;
+    double planned_ms = 0.0;  ///< makespan
     double measured_ms = 0.0;
     double plan_us = 0.0;
     double utilisation = 0.0;
@@ -25,7 +25,7 @@ struct ComparisonRow {
 
 /// frames: those that count.
 ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample>& frames,
-                       const std::string& state_hash);
+                       const EndState& end);
 
 /// Table 1 of the paper, for one scene.
 struct Comparison {

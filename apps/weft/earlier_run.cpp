@@ -18,12 +18,11 @@ fs::path current(const fs::path& file) {
     return fs::exists(before) ? before : file;
 }
 
-void check_length(const fs::path& file, std::size_t there, std::size_t needed) {
+void check_length(const fs::path& file, const char* what, std::size_t there, std::size_t needed) {
     if (there >= needed) return;
     throw UserError(
-        fmt::format("{}: --resume needs {} frames, and there are {}; --force starts the "
-                    "run anew",
-                    file.string(), needed, there));
+        fmt::format("{}: --resume needs {} {}, and there are {}; --force starts the run anew",
+                    file.string(), needed, what, there));
 }
 
 void check_devices(const fs::path& file, const RunDescription& then, const RunDescription& now) {
@@ -38,33 +37,28 @@ void check_devices(const fs::path& file, const RunDescription& then, const RunDe
 
 }  // namespace
 
-EarlierRun::EarlierRun(const OutputFolder& folder, int frames, const RunDescription& run)
-    : frames_(frames) {
-    const auto needed = static_cast<std::size_t>(frames);
-    if (const fs::path file = current(folder.trace()); fs::exists(file)) {
+EarlierRun::EarlierRun(const OutputFolder& folder, const Checkpoint& checkpoint,
+                       std::size_t geometry_steps, const RunDescription& run, bool with_trace)
+    : frames_(checkpoint.frame), geometry_steps_(geometry_steps), report_(checkpoint.report) {
+    if (const fs::path file = current(folder.trace()); with_trace && fs::exists(file)) {
         trace_.emplace(file);
-        check_length(file, trace_->frames().size(), needed);
+        check_length(file, "frames", trace_->frames().size(), static_cast<std::size_t>(frames_));
         check_devices(file, trace_->run(), run);
     }
     if (const fs::path file = current(folder.geometry()); fs::exists(file)) {
         geometry_.emplace(file);
-        check_length(file, geometry_->steps(), needed + 1);
+        check_length(file, "steps", geometry_->steps(), geometry_steps_);
     }
 }
 
-double EarlierRun::hand_over(SummaryBuilder& summary, TraceWriter& trace) const {
-    double end = 0.0;
+void EarlierRun::hand_over(TraceWriter& trace) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(frames_); ++i) {
-        FrameRecord frame = trace_->frame(i);
-        end = frame.end;
-        summary.add(frame);
-        trace.append(std::move(frame));
+        trace.append(trace_->frame(i));
     }
-    return end;
 }
 
 void EarlierRun::hand_over(GeometryWriter& geometry) const {
-    for (std::size_t step = 0; step <= static_cast<std::size_t>(frames_); ++step) {
+    for (std::size_t step = 0; step < geometry_steps_; ++step) {
         geometry.append(geometry_->time(step), geometry_->positions(step));
     }
 }

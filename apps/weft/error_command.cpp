@@ -4,41 +4,22 @@
 #include <iostream>
 #include <memory>
 
+#include "apps/weft/batch/make_sweep.h"
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
-#include "apps/weft/error_picture.h"
-#include "apps/weft/error_report.h"
-#include "apps/weft/trace_support.h"
-#include "apps/weft/trajectory_picture.h"
-#include "apps/weft/trajectory_report.h"
-#include "apps/weft/trajectory_study.h"
+#include "apps/weft/output_file.h"
+#include "apps/weft/studies/error_report.h"
+#include "apps/weft/studies/study_files.h"
+#include "apps/weft/studies/study_parts.h"
+#include "apps/weft/studies/study_sweep.h"
+#include "apps/weft/studies/trajectory_report.h"
+#include "apps/weft/studies/trajectory_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
 
 namespace weft {
 
 namespace {
-
-void write_whole(const std::filesystem::path& path, const std::string& content) {
-    WholeFile file(path);
-    file.write(content);
-    file.finish();
-}
-
-/// folder/name.svg, and name.png where there is cairo. What was written, for people.
-template <class Picture>
-std::string write_pictures(const std::filesystem::path& folder, const std::string& name,
-                           const Picture& picture) {
-    const auto write = [&](std::unique_ptr<Canvas> canvas, const std::string& file) {
-        picture.draw(*canvas);
-        write_whole(folder / file, canvas->finish());
-    };
-    write(make_svg_canvas(picture.width(), picture.height()), name + ".svg");
-    auto png = make_png_canvas(picture.width(), picture.height());
-    if (!png) return fmt::format("{0}.svg (no {0}.png: this weft was built without cairo)", name);
-    write(std::move(png), name + ".png");
-    return fmt::format("{0}.svg, {0}.png", name);
-}
 
 template <class Study>
 void print_study(const ErrorOptions& options, const Study& study, const std::string& files) {
@@ -59,31 +40,54 @@ std::filesystem::path make_folder(const ErrorOptions& options) {
     return folder;
 }
 
-void run_one_step(const ErrorOptions& options, const std::filesystem::path& folder) {
-    const ErrorStudy study = study_errors(options);
-    write_whole(folder / "error.csv", to_csv(study));
-    write_error_file(folder / "error.h5", study);
-    const std::string pictures = write_pictures(folder, "error", ErrorPicture(study));
-    print_study(options, study, folder.string() + ": error.csv, error.h5, " + pictures);
+/// study.json is for whoever joins the parts of a study.
+template <class Study>
+void run_study(const ErrorOptions& options, const Study& study,
+               const std::filesystem::path& folder) {
+    write_output(folder / "study.json", to_part(study).dump() + '\n');
+    print_study(options, study, write_study(folder, study));
 }
 
-void run_trajectories(const ErrorOptions& options, const std::filesystem::path& folder) {
-    const TrajectoryStudy study = study_trajectories(options);
-    write_whole(folder / "trajectory.csv", to_csv(study));
-    write_trajectory_file(folder / "trajectory.h5", study);
-    const std::string pictures = write_pictures(folder, "trajectory", TrajectoryPicture(study));
-    print_study(options, study, folder.string() + ": trajectory.csv, trajectory.h5, " + pictures);
+/// Wrong names are to be seen before there are jobs of them.
+void check_names(const ErrorOptions& options) {
+    RunOptions run = options.run;
+    for (const std::string& solver : options.solvers) {
+        run.solver = solver;
+        read_scene(run.scene, run.overrides());
+    }
+    for (const std::string& plan : options.plans) {
+        run.plan = plan;
+        static_cast<void>(run.simulation());
+    }
+    for (const std::string& devices : options.devices) check_device_list(devices);
+}
+
+/// A sweep of its own, of runs that do a curve each.
+void make_study_sweep(const ErrorOptions& options) {
+    check_names(options);
+    const Scene scene = read_scene(options.run.scene, options.run.overrides());
+    const std::string name = scene.name + (options.trajectory ? "-trajectory" : "-error");
+    const std::filesystem::path folder = batch::sweep_folder(name, options.run.out);
+    const std::string text = study_sweep(options, name, folder);
+    const std::string path = (folder / "sweep.toml").string();
+    const batch::Made made = batch::make_sweep(batch::parse_sweep(text, path), folder);
+    write_output(path, text);
+    if (options.run.json)
+        std::cout << to_json(made).dump(2) << std::endl;
+    else
+        std::cout << to_text(made, path) << std::flush;
 }
 
 void run_error(ErrorOptions options) {
     if (options.devices.empty()) options.devices = {hybrid_devices()};
     if (options.plans.empty()) options.plans = {"auto"};
     if (options.solvers.empty()) options.solvers = method_names();
+    if (options.as_sweep) return make_study_sweep(options);
     const std::filesystem::path folder = make_folder(options);
     if (options.trajectory)
-        run_trajectories(options, folder);
+        run_study(options, study_trajectories(options), folder);
     else
-        run_one_step(options, folder);
+        run_study(options, study_errors(options), folder);
 }
 
 void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
@@ -112,32 +116,38 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
 
 }  // namespace
 
+void add_error_options(CLI::App& command, ErrorOptions& options) {
+    add_scene_options(command, options.run);
+    add_device_options(command, options.run);
+    add_talk_options(command, options.run);
+    for (const char* single : {"--device", "--plan", "--solver", "--iterations", "--strips"}) {
+        command.remove_option(command.get_option(single));
+    }
+    command.add_option("--frame", options.frame,
+                       "the step is the first one of this frame (default: the middle of the run)");
+    command.add_option("--solvers", options.solvers, "solvers, separated by commas (all)")
+        ->delimiter(',');
+    command.add_option("--devices", options.devices, "device lists, separated by commas (hybrid)")
+        ->delimiter(',');
+    command.add_option("--plans", options.plans, "kinds of plans, separated by commas (auto)")
+        ->delimiter(',');
+    command
+        .add_option("--max-iterations", options.max_iterations, "iterations that a curve goes to")
+        ->capture_default_str();
+    command.add_option("--time", options.time,
+                       "seconds of measuring after which a curve has no further point (10; whole "
+                       "runs: 60)");
+    command.add_option("--out", options.run.out, "output folder; default: out/<scene name>");
+    command.add_flag("--as-sweep", options.as_sweep,
+                     "measure nothing, but make a sweep of it, a run per curve, for weft batch");
+    add_trajectory_options(command, options);
+}
+
 void add_error_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("error", "Measure the error of solvers against their run time");
     const auto options = std::make_shared<ErrorOptions>();
-    add_scene_options(*command, options->run);
-    add_device_options(*command, options->run);
-    add_talk_options(*command, options->run);
-    for (const char* single : {"--device", "--plan", "--solver", "--iterations", "--strips"}) {
-        command->remove_option(command->get_option(single));
-    }
-    command->add_option("--frame", options->frame,
-                        "the step is the first one of this frame (default: the middle of the run)");
-    command->add_option("--solvers", options->solvers, "solvers, separated by commas (all)")
-        ->delimiter(',');
-    command->add_option("--devices", options->devices, "device lists, separated by commas (hybrid)")
-        ->delimiter(',');
-    command->add_option("--plans", options->plans, "kinds of plans, separated by commas (auto)")
-        ->delimiter(',');
-    command
-        ->add_option("--max-iterations", options->max_iterations, "iterations that a curve goes to")
-        ->capture_default_str();
-    command->add_option("--time", options->time,
-                        "seconds after which a curve measures no further point (10; whole runs: "
-                        "60)");
-    command->add_option("--out", options->run.out, "output folder; default: out/<scene name>");
-    add_trajectory_options(*command, *options);
+    add_error_options(*command, *options);
     command->footer(
         "Every solver starts one step from the same state, and its energy E is compared with E*,\n"
         "the minimum by Newton's method in double precision: relative error = (E - E*)/(E0 - E*).\n"
@@ -151,7 +161,8 @@ void add_error_command(CLI::App& app) {
         "explains.\n\n"
         "Examples:\n"
         "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1\n"
-        "  weft error scenes/sheet.toml --trajectory --frames 20 --devices cpu/1");
+        "  weft error scenes/sheet.toml --trajectory --frames 20 --devices cpu/1\n"
+        "  weft error scenes/flag.toml --devices cpu/1 --as-sweep      (docs/batch.md)");
     command->callback([options] { run_error(*options); });
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr char kReady = 'r';
 constexpr char kFrame = 'f';
-constexpr char kHash = 'h';
+constexpr char kState = 's';
 constexpr char kEnd = 'e';
 
 // An answer is one line: what happened, then its text.
@@ -46,17 +46,22 @@ std::string read_line(int descriptor) {
 }
 
 std::string frame_line(Simulation& simulation) {
-    const FrameRecord frame = simulation.advance();
+    const FrameRecord frame = simulation.advance({.tasks = false, .energies = false});
     const double busy = std::accumulate(frame.busy.begin(), frame.busy.end(), 0.0);
     const double devices = static_cast<double>(frame.busy.size());
-    const double energy = std::accumulate(frame.energies.begin(), frame.energies.end(),
-                                          frame.kinetic_energy + frame.gravity_energy);
     int taking_part = 0;
     for (const double b : frame.busy) taking_part += b > 0.0 ? 1 : 0;
-    return fmt::format("{} {} {} {} {} {} {}", 1e3 * (frame.end - frame.start),
-                       1e3 * frame.planned_makespan, 1e3 * frame.measured_makespan,
-                       1e3 * frame.plan_time, busy / devices / frame.measured_makespan, energy,
-                       taking_part > 1 ? 1 : 0);
+    return fmt::format("{} {} {} {} {} {}", 1e3 * frame.wall_time(), 1e3 * frame.planned_makespan,
+                       1e3 * frame.measured_makespan, 1e3 * frame.plan_time,
+                       busy / devices / frame.measured_makespan, taking_part > 1 ? 1 : 0);
+}
+
+std::string end_line(const Simulation& simulation) {
+    FrameRecord state;
+    simulation.snapshot()->measure_energies(simulation.model(), simulation.time(), state);
+    return fmt::format("{} {}", simulation.hash(),
+                       std::accumulate(state.energies.begin(), state.energies.end(),
+                                       state.kinetic_energy + state.gravity_energy));
 }
 
 }  // namespace
@@ -98,7 +103,7 @@ void FrameWorker::serve(const RunOptions& options, int in, int out) {
             if (command == kFrame)
                 write_line(out, kDone, frame_line(simulation));
             else
-                write_line(out, kDone, command == kHash ? simulation.hash() : "");
+                write_line(out, kDone, command == kState ? end_line(simulation) : "");
         }
     } catch (const UserError& error) {
         write_line(out, kUserError, error.what());
@@ -121,12 +126,17 @@ std::string FrameWorker::ask(char command) {
 }
 
 void FrameWorker::wait_until_ready() { ask(kReady); }
-std::string FrameWorker::state_hash() { return ask(kHash); }
+EndState FrameWorker::end_state() {
+    std::istringstream in(ask(kState));
+    EndState state;
+    in >> state.hash >> state.energy;
+    return state;
+}
 
 FrameSample FrameWorker::advance() {
     std::istringstream in(ask(kFrame));
     FrameSample s;
-    in >> s.total >> s.planned >> s.measured >> s.plan >> s.utilisation >> s.energy >> s.mixed;
+    in >> s.wall >> s.planned >> s.measured >> s.plan >> s.utilisation >> s.mixed;
     return s;
 }
 

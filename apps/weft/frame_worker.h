@@ -12,13 +12,17 @@ namespace weft {
 
 /// One frame of a worker, times in ms.
 struct FrameSample {
-    double total = 0.0;  ///< planning and running
+    double wall = 0.0;  ///< all that a frame takes without output
     double planned = 0.0;
-    double measured = 0.0;
+    double measured = 0.0;  ///< makespan
     double plan = 0.0;
     double utilisation = 0.0;
+    bool mixed = false;  ///< several devices took part
+};
+
+struct EndState {
+    std::string hash;
     double energy = 0.0;  ///< [J]
-    bool mixed = false;   ///< several devices took part
 };
 
 /// A simulation in a process of its own, which does one frame whenever it is told to. In between it
@@ -36,7 +40,7 @@ public:
     /// Waits until the scene is set up. Throws UserError or RunError, as the worker met it.
     void wait_until_ready();
     FrameSample advance();
-    std::string state_hash();
+    EndState end_state();
 
     const std::string& devices() const { return devices_; }
 

@@ -8,7 +8,8 @@
 #include <string>
 
 #include "apps/weft/commands.h"
-#include "apps/weft/gantt.h"
+#include "apps/weft/output_file.h"
+#include "apps/weft/pictures/gantt.h"
 #include "apps/weft/trace_support.h"
 #include "runtime/error.h"
 
@@ -64,9 +65,7 @@ void draw_gantt(const GanttOptions& options) {
     const Gantt gantt = make_gantt(options, trace.run(), frame);
     const auto canvas = make_canvas(gantt.width(), gantt.height());
     gantt.draw(*canvas);
-    WholeFile file(path);
-    file.write(canvas->finish());
-    file.finish();
+    write_output(path, canvas->finish());
     std::cout << path.string() << '\n';
 }
 

@@ -120,9 +120,9 @@ void inspect_scene(const RunOptions& options) {
     if (!options.quiet) print_warnings(warnings);
     const Inspection inspection = inspect(model, *solver);
     if (options.json)
-        std::cout << to_json(inspection, scene).dump(2) << '\n';
+        std::cout << to_json(inspection, model.scene).dump(2) << '\n';
     else
-        std::cout << to_text(inspection, scene);
+        std::cout << to_text(inspection, model.scene);
 }
 
 }  // namespace

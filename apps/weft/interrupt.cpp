@@ -9,9 +9,13 @@ namespace {
 
 volatile std::sig_atomic_t noted_signal = 0;
 
-void note(int signal) { noted_signal = signal; }
+void note(int signal) {
+    if (noted_signal == 0) noted_signal = signal;
+}
 
-constexpr std::initializer_list<int> kSignals{SIGINT, SIGTERM, SIGHUP};
+/// From programs, which may send several (srun and GNU parallel do so within 350 ms): these never
+/// end the program once it is stopping. SIGUSR1 is what batch systems send before the time is up.
+constexpr std::initializer_list<int> kPoliteSignals{SIGTERM, SIGHUP, SIGUSR1};
 
 void handle(int signal, void (*handler)(int), int flags) {
     struct sigaction action {};
@@ -27,11 +31,15 @@ void handle(int signal, void (*handler)(int), int flags) {
 
 InterruptNotice::InterruptNotice() {
     noted_signal = 0;
-    for (const int signal : kSignals) handle(signal, note, SA_RESTART | SA_RESETHAND);
+    handle(SIGINT, note, SA_RESTART | SA_RESETHAND);
+    for (const int signal : kPoliteSignals) handle(signal, note, SA_RESTART);
 }
 
+/// After one has come they stay noted: the program is on its way out.
 InterruptNotice::~InterruptNotice() {
-    for (const int signal : kSignals) handle(signal, SIG_DFL, 0);
+    if (noted_signal != 0) return;
+    handle(SIGINT, SIG_DFL, 0);
+    for (const int signal : kPoliteSignals) handle(signal, SIG_DFL, 0);
 }
 
 int InterruptNotice::signal() const { return noted_signal; }
@@ -44,6 +52,8 @@ const char* signal_name(int signal) {
             return "SIGTERM";
         case SIGHUP:
             return "SIGHUP";
+        case SIGUSR1:
+            return "SIGUSR1";
         default:
             return "a signal";
     }

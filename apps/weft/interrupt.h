@@ -16,8 +16,9 @@ private:
     int signal_;
 };
 
-/// While one lives, the first SIGINT, SIGTERM or SIGHUP is only noted; another one of the same kind
-/// ends the program as if nobody had been listening. One at a time.
+/// While one lives, SIGINT, SIGTERM, SIGHUP and SIGUSR1 are only noted, the first of them for
+/// signal(); a second SIGINT ends the program at once. If one was noted, that stays so after its
+/// end: nothing but a second SIGINT disturbs a program that is stopping. One at a time.
 class InterruptNotice {
 public:
     InterruptNotice();

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/error.h"
+#include "runtime/io/whole_file.h"
 #include "simulation/output/checkpoint.h"
 #include "simulation/output/geometry_writer.h"
 
@@ -75,7 +76,7 @@ void OutputFolder::claim(bool resume) {
         remove(checkpoint());
         forget_before();
     }
-    for (const fs::path& old : {unfinished_checkpoint(checkpoint()), summary(), trace(), geometry(),
+    for (const fs::path& old : {unfinished(checkpoint()), summary(), trace(), geometry(),
                                 GeometryWriter::xdmf_path(geometry())}) {
         remove(old);
     }

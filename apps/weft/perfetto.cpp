@@ -80,7 +80,6 @@ private:
 
     void add_frame() {
         const Slice whole{nanoseconds(frame_.start), nanoseconds(frame_.end), kFrameTrack};
-        const std::int64_t planned = nanoseconds(frame_.start + frame_.plan_time);
         add_slice(whole, fmt::format("frame {}", frame_.frame), "frame",
                   {{"frame", frame_.frame},
                    {"planned_ms", 1e3 * frame_.planned_makespan},
@@ -88,13 +87,24 @@ private:
                    {"lower_bound_ms", 1e3 * frame_.lower_bound},
                    {"transferred_bytes", frame_.transferred_bytes},
                    {"state_hash", frame_.state_hash}});
-        add_slice({whole.start, std::min(planned, whole.end), kFrameTrack}, "planning", "planning",
-                  {{"frame", frame_.frame}});
+        add_parts(whole);
         ordered_json counter = event("C", "makespan", kFrameTrack);
         counter["ts"] = microseconds(whole.start);
         counter["args"] = {{"planned_ms", 1e3 * frame_.planned_makespan},
                            {"measured_ms", 1e3 * frame_.measured_makespan}};
         add_event(whole.start, kAfterSlices, counter);
+    }
+
+    void add_parts(const Slice& whole) {
+        double time = frame_.start;
+        std::int64_t begin = whole.start;
+        for (const FramePart& part : kFrameParts) {
+            time += frame_.*part.time;
+            const std::int64_t end = std::min(nanoseconds(time), whole.end);
+            if (end > begin)
+                add_slice({begin, end, kFrameTrack}, part.name, "part", {{"frame", frame_.frame}});
+            begin = end;
+        }
     }
 
     void add_executions() {

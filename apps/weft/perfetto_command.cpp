@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/weft/commands.h"
+#include "apps/weft/output_file.h"
 #include "apps/weft/perfetto.h"
 #include "apps/weft/trace_support.h"
 #include "runtime/error.h"
@@ -69,7 +70,7 @@ void export_trace(const PerfettoOptions& options) {
     if (options.out) path = *options.out;
 
     PerfettoText text(trace.run());
-    WholeFile file(path);
+    WholeFile file = open_output(path);
     file.write(text.head());
     for (std::size_t i = 0; i < frames.size(); ++i) {
         if (frames[i].frame < range.first || frames[i].frame > range.last) continue;

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cmath>
 #include <iostream>
+
+#include "apps/weft/duration_text.h"
 
 namespace weft {
 
@@ -14,14 +15,6 @@ constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kBarInterval{50};
 constexpr std::chrono::milliseconds kLineInterval{5000};
 constexpr const char* kClearLine = "\r\033[K";
-
-std::string duration_text(double seconds) {
-    if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
-    const auto whole = static_cast<long>(std::lround(seconds));
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-    return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-}
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "runtime/error.h"
-#include "simulation/scene/mesh_files.h"
+#include "simulation/bodies/mesh_files.h"
 #include "simulation/scene/read_scene.h"
 
 namespace weft {

@@ -13,8 +13,8 @@ namespace weft {
 namespace {
 
 void run_scene(const RunOptions& options) {
-    SceneRun run(options);
     const InterruptNotice notice;
+    SceneRun run(options);
     run.advance_all(notice);
     const RunSummary summary = run.finish();
     if (options.json)
@@ -38,9 +38,9 @@ void add_run_command(CLI::App& app) {
         "Writes trace.h5, frames.vtkhdf, frames.xdmf and summary.json into the output folder\n"
         "(docs/trace-format.md), and prints the summary.\n\n"
         "Exit codes: 0 done; 1 the run failed, everything before is on disk; 2 the request was\n"
-        "wrong; 128 + signal: stopped by SIGINT, SIGTERM or SIGHUP after a whole frame. A run "
-        "that\n"
-        "was stopped or killed goes on with --resume, and ends as if nothing had happened.\n\n"
+        "wrong; 128 + signal: stopped by SIGINT, SIGTERM, SIGHUP or SIGUSR1 after a whole frame\n"
+        "(only a second SIGINT stops at once). A run that was stopped or killed goes on with\n"
+        "--resume, and ends as if nothing had happened.\n\n"
         "Examples:\n"
         "  weft run scenes/tablecloth.toml\n"
         "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out "

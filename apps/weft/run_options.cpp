@@ -1,12 +1,14 @@
 #include "apps/weft/run_options.h"
 
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "runtime/cache_folder.h"
 #include "runtime/error.h"
+#include "runtime/io/cache_folder.h"
 
 namespace weft {
 namespace {
@@ -25,6 +27,13 @@ PlanKind plan_kind(const std::string& name) {
     if (name == "single") return PlanKind::kSingle;
     throw UserError(fmt::format(
         "--plan {}: not in this version of weft; available: auto, exact, single", name));
+}
+
+/// Of the user, unless a sweep keeps its own: runs side by side measure other times than alone.
+std::filesystem::path usual_cost_file() {
+    if (const char* own = std::getenv("WEFT_COSTS")) return own;
+    const auto folder = cache_folder();
+    return folder.empty() ? folder : folder / "costs.json";
 }
 
 std::string& noted_command_line() {
@@ -57,9 +66,7 @@ SimulationOptions RunOptions::simulation() const {
     options.device_options.strict_math = math == "strict";
     options.device_options.memory = memory_model(memory);
     if (!strips.empty()) options.division = Division{strips};
-    if (const auto folder = cache_folder(); !folder.empty()) {
-        options.cost_file = folder / "costs.json";
-    }
+    options.cost_file = usual_cost_file();
     return options;
 }
 

@@ -6,10 +6,11 @@
 #include <iostream>
 
 #include "apps/weft/progress.h"
-#include "runtime/cache_folder.h"
+#include "apps/weft/run_record.h"
 #include "runtime/clock.h"
 #include "runtime/error.h"
-#include "simulation/scene/mesh_files.h"
+#include "runtime/io/cache_folder.h"
+#include "simulation/bodies/mesh_files.h"
 
 namespace weft {
 
@@ -25,34 +26,7 @@ std::filesystem::path folder_for(const RunOptions& options, const Scene& scene) 
 
 bool touches_opencl(const std::string& devices) {
     return devices.find("opencl") != std::string::npos ||
-           devices.find("hybrid") != std::string::npos;
-}
-
-/// The devices that cannot keep strict arithmetic's promise.
-std::vector<std::string> loose_devices(const Simulation& simulation) {
-    std::vector<std::string> names;
-    for (const auto& device : simulation.devices()) {
-        if (!device->info().strict) names.push_back(device->info().name);
-    }
-    return names;
-}
-
-RunDescription describe(const Simulation& simulation, const RunOptions& options) {
-    RunDescription run = simulation.describe();
-    run.command = command_line();
-    run.versions = {{"weft", WEFT_VERSION}};
-    run.settings.emplace_back("devices", options.device);
-    run.settings.emplace_back("plan", options.plan);
-    run.settings.emplace_back("math", options.math);
-    if (options.memory != "auto") run.settings.emplace_back("memory", options.memory);
-    if (!options.strips.empty()) {
-        run.settings.emplace_back("division", fmt::format("{}", fmt::join(options.strips, ",")));
-    }
-    const std::vector<std::string> loose = loose_devices(simulation);
-    if (options.math == "strict" && !loose.empty()) {
-        run.settings.emplace_back("not_strict", fmt::format("{}", fmt::join(loose, ", ")));
-    }
-    return run;
+           devices.find("hybrid") != std::string::npos || devices.find("gpu") != std::string::npos;
 }
 
 std::vector<GeometryBody> geometry_bodies(const Model& model) {
@@ -79,10 +53,11 @@ SceneRun::SceneRun(const RunOptions& options)
       scene_(read_scene(options.scene, options.overrides())),
       folder_(folder_for(options, scene_), options.force) {
     set_up();
-    const RunDescription description = describe(*simulation_, options_);
+    const RunDescription description = describe_run(*simulation_, options_);
     if (options_.resume) find_earlier(description);
     folder_.claim(earlier_.has_value());
     summary_.emplace(description);
+    energy_check_.emplace(simulation_->model(), energies());
     if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
     if (!options_.no_geometry) open_geometry();
     if (earlier_) take_over();
@@ -107,12 +82,15 @@ void SceneRun::find_earlier(const RunDescription& description) {
         throw UserError(fmt::format("--resume: {} frames are done already, and {} are asked for",
                                     checkpoint->frame, scene_.frames));
     }
-    earlier_.emplace(folder_, checkpoint->frame, description);
+    earlier_.emplace(folder_, *checkpoint, geometry_steps(checkpoint->frame), description,
+                     !options_.no_trace);
     simulation_->resume(*checkpoint);
 }
 
 void SceneRun::take_over() {
-    if (trace_ && earlier_->has_trace()) clock_offset_ = earlier_->hand_over(*summary_, *trace_);
+    earlier_->hand_over(*summary_);
+    clock_offset_ = summary_->end();
+    if (trace_ && earlier_->has_trace()) earlier_->hand_over(*trace_);
     if (geometry_ && earlier_->has_geometry()) earlier_->hand_over(*geometry_);
     if (!options_.quiet) {
         std::cerr << fmt::format("weft: {}: going on after {} of {} frames\n", scene_.name,
@@ -134,7 +112,7 @@ void SceneRun::set_up() {
 }
 
 void SceneRun::say_what_runs() const {
-    print_warnings(warnings_);
+    print_warnings(all_warnings());
     if (folder_.replaces_unfinished() && !options_.resume) {
         std::cerr << fmt::format("weft: {}: replacing a run that did not finish\n",
                                  folder_.path().string());
@@ -145,45 +123,81 @@ void SceneRun::say_what_runs() const {
         devices.push_back(fmt::format("{} ({}, {} unit{})", info.name, info.kind, info.units,
                                       info.units == 1 ? "" : "s"));
     }
-    std::cerr << fmt::format("weft: {}: {} vertices, {} frames on {}\n", scene_.name,
-                             simulation_->model().vertex_count(), scene_.frames,
-                             fmt::join(devices, " + "));
-    if (options_.math != "strict") return;
+    const Model& model = simulation_->model();
+    std::cerr << fmt::format(
+        "weft: {}: {} vertices, {} substeps x {} iterations, {} frames on {}\n", scene_.name,
+        model.vertex_count(), model.scene.substeps, scene_.solver.iterations, scene_.frames,
+        fmt::join(devices, " + "));
+}
+
+/// Of the scene, and of the devices.
+Warnings SceneRun::all_warnings() const {
+    Warnings warnings = warnings_;
+    if (options_.math != "strict") return warnings;
     for (const std::string& name : loose_devices(*simulation_)) {
-        std::cerr << fmt::format(
-            "weft: warning: {} does not round divisions and square roots correctly: its results "
-            "may differ from those of other devices in the last bits\n",
-            name);
+        warnings.push_back(fmt::format(
+            "{} does not round divisions and square roots correctly: its results may differ from "
+            "those of other devices in the last bits",
+            name));
     }
+    return warnings;
 }
 
 void SceneRun::open_geometry() {
     const Model& model = simulation_->model();
     const auto triangles = geometry_triangles(model);
     geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
-                      geometry_bodies(model), static_cast<std::size_t>(scene_.frames) + 1);
+                      geometry_bodies(model), geometry_steps(scene_.frames),
+                      scene_.output.compression);
     if (!earlier_ || !earlier_->has_geometry()) append_geometry();
 }
 
+/// Of the states after 0, 1, ... `frames` frames, those that are written.
+std::size_t SceneRun::geometry_steps(int frames) const {
+    return static_cast<std::size_t>(frames / scene_.output.every) + 1;
+}
+
 void SceneRun::append_geometry() {
-    geometry_->append(simulation_->frame() * scene_.dt, simulation_->positions());
+    if (simulation_->frame() % scene_.output.every != 0) return;
+    geometry_->append(simulation_->time(),
+                      [&model = simulation_->model(), state = simulation_->snapshot()] {
+                          return state->scene_positions(model);
+                      });
 }
 
 void SceneRun::advance_all(const InterruptNotice& notice) {
     Progress progress("frame", scene_.frames, options_.quiet);
+    last_end_ = simulation_->clock();
     while (frames_done() < scene_.frames && notice.signal() == 0) {
-        FrameRecord record = simulation_->advance();
-        shift_times(record, clock_offset_);
-        say_losses();
-        summary_->add(record);
-        if (trace_) {
-            record.state_hash = simulation_->hash();
-            trace_->append(std::move(record));
-        }
-        if (geometry_) append_geometry();
         keep_checkpoint();
+        FrameRecord record = simulation_->advance({.tasks = trace_.has_value(), .energies = false});
+        say_losses();
+        if (geometry_) append_geometry();
         progress.show(frames_done());
+        if (trace_) trace_->settle();
+        close(record);
+        summary_->add(record);
+        if (trace_) append_trace(std::move(record));
     }
+}
+
+/// Energies and the hash are found out while the next frame runs.
+void SceneRun::append_trace(FrameRecord record) {
+    trace_->append(std::move(record),
+                   [&model = simulation_->model(), state = simulation_->snapshot(),
+                    time = simulation_->time()](FrameRecord& frame) {
+                       state->measure_energies(model, time, frame);
+                       frame.state_hash = state->hash(model);
+                   });
+}
+
+/// All time since the record before was closed belongs to this one.
+void SceneRun::close(FrameRecord& record) {
+    const double end = simulation_->clock();
+    record.output_time = record.start - last_end_ + end - record.end;
+    record.start = last_end_;
+    record.end = last_end_ = end;
+    shift_times(record, clock_offset_);
 }
 
 /// Appending waits for the frame before to be on disk. So a checkpoint is written one frame after
@@ -194,8 +208,14 @@ void SceneRun::keep_checkpoint() {
         pending_.reset();
     }
     if (now() - last_checkpoint_ < options_.checkpoint) return;
-    pending_ = simulation_->checkpoint();
+    pending_ = checkpoint();
     last_checkpoint_ = now();
+}
+
+Checkpoint SceneRun::checkpoint() const {
+    Checkpoint checkpoint = simulation_->checkpoint();
+    checkpoint.report = summary_->save();
+    return checkpoint;
 }
 
 /// Even where talk is not wanted: the rest of the run is slower than was asked for.
@@ -212,10 +232,28 @@ std::string SceneRun::text_of(const LostDevice& lost) const {
                        lost.device, device->info().name, lost.frame, lost.why);
 }
 
+/// Of the present state.
+FrameRecord SceneRun::energies() const {
+    FrameRecord now;
+    simulation_->snapshot()->measure_energies(simulation_->model(), simulation_->time(), now);
+    return now;
+}
+
+void SceneRun::check_energy(const FrameRecord& end) {
+    const auto warning = energy_check_->look(end);
+    if (!warning) return;
+    warnings_.push_back(*warning);
+    std::cerr << fmt::format("weft: warning: {}\n", *warning);
+}
+
 RunSummary SceneRun::finish() {
     simulation_->save_costs();
+    const FrameRecord end = energies();
+    check_energy(end);
+    summary_->set_energies(end);
     RunSummary summary = summary_->summary();
     for (const LostDevice& lost : simulation_->losses()) summary.losses.push_back(text_of(lost));
+    summary.warnings = all_warnings();
     summary.finished = frames_done() == scene_.frames;
     summary.state_hash = simulation_->hash();
     if (trace_) {
@@ -230,7 +268,7 @@ RunSummary SceneRun::finish() {
     }
     summary.files.emplace_back("summary", folder_.summary().string());
     if (!summary.finished) {
-        write_checkpoint(folder_.checkpoint(), origin(), simulation_->checkpoint());
+        write_checkpoint(folder_.checkpoint(), origin(), checkpoint());
     }
     write_summary(folder_.summary(), summary);
     if (summary.finished) std::filesystem::remove(folder_.checkpoint());

@@ -6,6 +6,7 @@
 #include "apps/weft/interrupt.h"
 #include "apps/weft/output_folder.h"
 #include "apps/weft/run_options.h"
+#include "simulation/energy_check.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -29,11 +30,18 @@ public:
 private:
     void set_up();
     void say_what_runs() const;
+    Warnings all_warnings() const;
     std::string origin() const;
     void find_earlier(const RunDescription& description);
     void take_over();
     void open_geometry();
+    void close(FrameRecord& record);
+    void append_trace(FrameRecord record);
+    FrameRecord energies() const;
+    void check_energy(const FrameRecord& end);
     void keep_checkpoint();
+    Checkpoint checkpoint() const;
+    std::size_t geometry_steps(int frames) const;
     void append_geometry();
     void say_losses();
     std::string text_of(const LostDevice& lost) const;
@@ -43,6 +51,7 @@ private:
     OutputFolder folder_;
     Warnings warnings_;
     std::optional<Simulation> simulation_;
+    std::optional<EnergyCheck> energy_check_;
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
@@ -50,6 +59,7 @@ private:
     std::optional<EarlierRun> earlier_;  ///< that this run goes on from
     std::optional<Checkpoint> pending_;  ///< written once its frames are on disk
     double last_checkpoint_ = 0.0;       ///< steady-clock seconds
+    double last_end_ = 0.0;              ///< of the frame before, by the simulation's clock [s]
     double clock_offset_ = 0.0;          ///< the time that the run before took [s]
 };
 

@@ -39,19 +39,10 @@ std::string name_of(const std::vector<std::string>& names, std::size_t index) {
     return index < names.size() ? names[index] : fmt::format("#{}", index);
 }
 
-nlohmann::ordered_json pairs_json(const TextPairs& pairs) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    for (const auto& [key, value] : pairs) json[key] = value;
-    return json;
-}
-
 void print_json(const TraceReader& trace, const RunSummary& summary) {
     const RunDescription& run = trace.run();
     nlohmann::ordered_json json = to_json(summary);
     json["started"] = trace.started();
-    json["command"] = run.command;
-    json["versions"] = pairs_json(run.versions);
-    json["settings"] = pairs_json(run.settings);
     json["costs"] = nlohmann::ordered_json::array();
     for (const CostRecord& cost : last_costs(trace)) {
         json["costs"].push_back({{"kind", name_of(run.kinds, cost.kind)},
@@ -82,8 +73,8 @@ void print_text(const TraceReader& trace, const RunSummary& summary) {
     std::cout << fmt::format("{:<16} {}\n", "command", run.command)
               << fmt::format("{:<16} {}{}\n", "started", trace.started(),
                              trace.finished() ? "" : "; not finished: going on, failed or killed");
-    for (const auto& [key, value] : run.versions) {
-        std::cout << fmt::format("{:<16} {}\n", key, value);
+    for (const TextPairs& pairs : {run.host, run.versions}) {
+        for (const auto& [key, value] : pairs) std::cout << fmt::format("{:<16} {}\n", key, value);
     }
     std::cout << to_text(summary) << costs_text(trace);
 }

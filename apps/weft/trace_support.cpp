@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 #include "runtime/error.h"
 
@@ -34,46 +31,6 @@ double planned_substep(const FrameRecord& frame) {
     double end = 0.0;
     for (const PlanRecord& task : frame.plan) end = std::max(end, task.end);
     return end;
-}
-
-WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)), part_(path_) {
-    const bool replaceable =
-        !std::filesystem::exists(path_) || std::filesystem::is_regular_file(path_);
-    if (replaceable) part_ += ".part";
-    errno = 0;
-    file_ = std::fopen(part_.c_str(), "wb");
-    if (file_ != nullptr) return;
-    throw UserError(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
-}
-
-WholeFile::~WholeFile() {
-    if (file_ == nullptr) return;
-    std::fclose(file_);
-    remove_part();
-}
-
-void WholeFile::remove_part() const {
-    std::error_code ignored;
-    if (part_ != path_) std::filesystem::remove(part_, ignored);
-}
-
-void WholeFile::write(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail_writing();
-}
-
-void WholeFile::finish() {
-    if (std::fflush(file_) != 0) fail_writing();
-    const bool closed = std::fclose(file_) == 0;
-    file_ = nullptr;
-    if (closed && (part_ == path_ || std::rename(part_.c_str(), path_.c_str()) == 0)) return;
-    const int reason = errno;
-    remove_part();
-    errno = reason;
-    fail_writing();
-}
-
-void WholeFile::fail_writing() const {
-    throw RunError(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
 }
 
 }  // namespace weft

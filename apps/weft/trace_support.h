@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -21,27 +19,5 @@ std::uint32_t substeps_of(const FrameRecord& frame);
 
 /// The predicted time of one substep, as the frame's plan says.
 double planned_substep(const FrameRecord& frame);
-
-/// A file that appears whole or not at all; a pipe or device of that name is written as it is.
-class WholeFile {
-public:
-    /// Throws UserError if the place cannot be written.
-    explicit WholeFile(std::filesystem::path path);
-    /// Takes away what is not finished.
-    ~WholeFile();
-    WholeFile(const WholeFile&) = delete;
-    WholeFile& operator=(const WholeFile&) = delete;
-
-    /// Throws RunError, e.g. when the disk is full.
-    void write(const std::string& text);
-    void finish();
-
-private:
-    void remove_part() const;
-    [[noreturn]] void fail_writing() const;
-
-    std::filesystem::path path_, part_;
-    std::FILE* file_ = nullptr;
-};
 
 }  // namespace weft

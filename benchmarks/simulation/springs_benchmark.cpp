@@ -2,6 +2,7 @@
 
 #include "benchmarks/simulation/plain_springs.h"
 #include "runtime/tbb/cpu_device.h"
+#include "simulation/families/springs/springs.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
 #include "simulation/topology/adjacency.h"
@@ -71,7 +72,7 @@ void run_weft(benchmark::State& state, int lanes) {
         // The substeps alone; the checks and energies of a frame are not part of the comparison.
         state.SetIterationTime(simulation.advance().measured_makespan);
     }
-    count_projections(state, simulation.model().springs->elements.count());
+    count_projections(state, simulation.model().find<Springs>()->elements().count());
     state.SetLabel("state " + simulation.hash().substr(0, 8) + " after " +
                    std::to_string(simulation.frame()) + " frames");
 }

@@ -30,17 +30,17 @@ WEFT_INLINE item row_entry(WEFT_GLOBAL const int* slices, item i, int stride, in
 typedef struct {
     real3 gradient;
     sym3 hessian;
-} slope;
+} derivatives;
 
-WEFT_INLINE slope no_slope(void) {
+WEFT_INLINE derivatives zero_derivatives(void) {
     const real zero = splat(0.0f);
-    slope s = {make3(zero, zero, zero), diagonal_sym(zero)};
+    derivatives s = {make3(zero, zero, zero), diagonal_sym(zero)};
     return s;
 }
 
 /// sums [9 * items] column-major: gradient x, y, z, Hessian xx, xy, xz, yy, yz, zz
-WEFT_INLINE slope load_slope(WEFT_GLOBAL const float* sums, item i, int items) {
-    slope s;
+WEFT_INLINE derivatives load_derivatives(WEFT_GLOBAL const float* sums, item i, int items) {
+    derivatives s;
     s.gradient =
         make3(load(sums, i), load(sums, column(i, items, 1)), load(sums, column(i, items, 2)));
     s.hessian = make_sym(load(sums, column(i, items, 3)), load(sums, column(i, items, 4)),
@@ -49,7 +49,7 @@ WEFT_INLINE slope load_slope(WEFT_GLOBAL const float* sums, item i, int items) {
     return s;
 }
 
-WEFT_INLINE void store_slope(WEFT_GLOBAL float* sums, item i, int items, slope s) {
+WEFT_INLINE void store_derivatives(WEFT_GLOBAL float* sums, item i, int items, derivatives s) {
     store(sums, i, s.gradient.x);
     store(sums, column(i, items, 1), s.gradient.y);
     store(sums, column(i, items, 2), s.gradient.z);
@@ -59,6 +59,19 @@ WEFT_INLINE void store_slope(WEFT_GLOBAL float* sums, item i, int items, slope s
     store(sums, column(i, items, 6), s.hessian.yy);
     store(sums, column(i, items, 7), s.hessian.yz);
     store(sums, column(i, items, 8), s.hessian.zz);
+}
+
+// Gradients alone, for methods that do not want the Hessian blocks every time: the Hessian columns
+// of the sums are left as they are.
+
+WEFT_INLINE real3 load_gradient(WEFT_GLOBAL const float* sums, item i, int items) {
+    return make3(load(sums, i), load(sums, column(i, items, 1)), load(sums, column(i, items, 2)));
+}
+
+WEFT_INLINE void store_gradient(WEFT_GLOBAL float* sums, item i, int items, real3 gradient) {
+    store(sums, i, gradient.x);
+    store(sums, column(i, items, 1), gradient.y);
+    store(sums, column(i, items, 2), gradient.z);
 }
 
 WEFT_KERNELS_END

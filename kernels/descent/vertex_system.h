@@ -29,7 +29,7 @@ WEFT_INLINE vertex_system load_system(WEFT_GLOBAL const float4* positions,
     v.vertex = load_index(vertices, i);
     v.x = gather4(positions, v.vertex);
     const real3 target = xyz(gather4(targets, v.vertex));
-    const slope s = load_slope(sums, i, item_count);
+    const derivatives s = load_derivatives(sums, i, item_count);
     // Held vertices have no mass to divide by; whatever comes out, they do not take it.
     const real inertia = inverse_h2 / (v.x.w > splat(0.0f) ? v.x.w : splat(1.0f));
     v.free = v.x.w > splat(0.0f) ? splat(1.0f) : splat(0.0f);

@@ -20,22 +20,12 @@
 // 0. A triangle without area has no normal: n = 0 then, and only mu's part remains, which pulls it
 // together.
 
+#include "kernels/energies/triangle.h"
 #include "kernels/matrix.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
 WEFT_KERNELS_BEGIN
-
-/// A gradient in the sheet's plane at rest [1/m]
-typedef struct {
-    real u, v;
-} real2;
-
-WEFT_INLINE real2 make2(real u, real v) {
-    real2 b = {u, v};
-    return b;
-}
-WEFT_INLINE real dot2(real2 a, real2 b) { return a.u * b.u + a.v * b.v; }
 
 /// A triangle as it is deformed.
 typedef struct {

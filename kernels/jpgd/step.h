@@ -29,7 +29,7 @@ WEFT_KERNEL(step_preconditioned, WEFT_GLOBAL const float4* positions, WEFT_GLOBA
             WEFT_GLOBAL const float* control, WEFT_GLOBAL const float* weights, int vertex_count,
             float inverse_h2, int iteration) {
     const real4 x = load4(positions, i);
-    const slope s = load_slope(sums, i, vertex_count);
+    const derivatives s = load_derivatives(sums, i, vertex_count);
 
     const real inertia = inverse_h2 / (x.w > splat(0.0f) ? x.w : splat(1.0f));
     const real3 force =

@@ -3,6 +3,7 @@
 
 #include "kernels/energies/membrane.h"
 #include "kernels/sosd/stencil.h"
+#include "kernels/triangles.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -22,17 +23,13 @@ WEFT_KERNEL(solve_membrane_stencils, WEFT_GLOBAL float4* positions,
             load_system(positions, targets, vertices, sums,
                         corner_items(corners, i, stencil_count, k), item_count, inverse_h2);
     }
-    real2 b[3];
-    b[1] = make2(load(shape, i), load(shape, column(i, stencil_count, 1)));
-    b[2] =
-        make2(load(shape, column(i, stencil_count, 2)), load(shape, column(i, stencil_count, 3)));
-    b[0] = make2(-(b[1].u + b[2].u), -(b[1].v + b[2].v));
+    const triangle_shape t = load_triangle_shape(shape, i, stencil_count);
     const membrane m =
-        make_membrane(xyz(s.corner[0].x), xyz(s.corner[1].x), xyz(s.corner[2].x), b[1], b[2],
+        make_membrane(xyz(s.corner[0].x), xyz(s.corner[1].x), xyz(s.corner[2].x), t.b[1], t.b[2],
                       load(material, i), load(material, column(i, stencil_count, 1)));
     for (int k = 1; k < 3; ++k) {
         for (int j = 0; j < k; ++j) {
-            s.coupling[k * (k - 1) / 2 + j] = membrane_coupling(m, b[j], b[k]);
+            s.coupling[k * (k - 1) / 2 + j] = membrane_coupling(m, t.b[j], t.b[k]);
         }
     }
     const stencil_vector step = solve_stencil(s, 3);

@@ -3,6 +3,7 @@
 
 #include "kernels/energies/membrane.h"
 #include "kernels/platform.h"
+#include "kernels/triangles.h"
 #include "kernels/vector.h"
 #include "kernels/xpbd/pair.h"
 
@@ -27,8 +28,9 @@ WEFT_KERNEL(project_membranes, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const 
     const integer k0 = load_index(corners, i);
     const integer k1 = load_index(corners, column(i, count, 1));
     const integer k2 = load_index(corners, column(i, count, 2));
-    const real2 b1 = make2(load(shape, i), load(shape, column(i, count, 1)));
-    const real2 b2 = make2(load(shape, column(i, count, 2)), load(shape, column(i, count, 3)));
+    const triangle_shape t = load_triangle_shape(shape, i, count);
+    const real2 b1 = t.b[1];
+    const real2 b2 = t.b[2];
     const real mu = load(material, i);
     const real lambda = load(material, column(i, count, 1));
     const real area_multiplier = fresh ? splat(0.0f) : load(of_area, i);

@@ -1,6 +1,5 @@
 #include "runtime/opencl/opencl_device.h"
 
-#include <cstdlib>
 #include <numeric>
 
 #include "runtime/opencl/stream.h"
@@ -10,8 +9,6 @@ namespace weft {
 namespace {
 
 std::vector<cl::Device> find_devices() {
-    // PoCL's threads stay on one core each, so that a sub-device has cores of its own.
-    ::setenv("POCL_AFFINITY", "1", /*overwrite=*/0);
     std::vector<cl::Device> devices;
     std::vector<cl::Platform> platforms;
     try {

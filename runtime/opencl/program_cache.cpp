@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "runtime/cache_folder.h"
+#include "runtime/io/cache_folder.h"
 #include "runtime/opencl/program.h"
 
 namespace weft {

@@ -31,6 +31,7 @@ struct RunDescription {
     std::string scene_path;  ///< the scene file, absolute; its meshes are relative to its folder
     std::string scene_text;  ///< the scene file, with overrides applied by `command` alone
     std::string command;     ///< the command line, words joined by blanks
+    TextPairs host;          ///< e.g. {"name", "node7"}, {"cpu", "AMD EPYC 7763"}
     TextPairs versions;      ///< e.g. {"weft", "0.1.0"}, {"hdf5", "1.10.8"}
     TextPairs settings;      ///< e.g. {"math", "strict"}, {"plan", "exact"}, {"substeps", "8"}
     TextPairs meshes;  ///< bodies whose shape is a file, e.g. "cloth.shirt": hash of its bytes
@@ -117,11 +118,21 @@ struct FrameRecord {
     std::uint32_t frame = 0;
     double sim_time = 0.0;  ///< simulated time at the frame's end [s]
     double start = 0.0;
-    double end = 0.0;
+    double end = 0.0;  ///< the start of the next frame: all that lies between belongs to this one
+    // Where the time from start to end went: together these are all of it [s].
+    double place_time = 0.0;    ///< obstacles, pins, gravity; a copy of the state to go back to
+    double plan_time = 0.0;     ///< the planner
+    double execute_time = 0.0;  ///< all substeps, from their submission to the state at the host
+    double check_time = 0.0;    ///< whether the state is one
+    double learn_time = 0.0;    ///< costs from what was measured, and this record
+    double measure_time = 0.0;  ///< energies and the state's hash, where they are asked for
+    double output_time = 0.0;   ///< handing over to files and waiting for them; checkpoints, talk
     double planned_makespan = 0.0;   ///< of the whole frame (all substeps) [s]
     double measured_makespan = 0.0;  ///< of the whole frame (all substeps) [s]
     double lower_bound = 0.0;        ///< no plan of this frame can be predicted faster [s]
-    double plan_time = 0.0;          ///< time the planner took [s]
+    /// planned_makespan = pace * end of the plan's last task * substeps: how much longer than its
+    /// tasks' costs say the plan was expected to take, as learnt.
+    double pace = 1.0;
     std::uint64_t transferred_bytes = 0;
     std::vector<double> busy;  ///< [devices] time spent in tasks [s]
     std::string state_hash;    ///< at the frame's end, 32 hex digits; empty: not known
@@ -134,7 +145,22 @@ struct FrameRecord {
     std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
     double kinetic_energy = 0.0;            ///< [J]; the frame's end state
     double gravity_energy = 0.0;            ///< potential in gravity [J]
-    std::vector<double> energies;           ///< [RunDescription::energies] [J]
+    std::vector<double> energies;           ///< [RunDescription::energies] [J]; empty: not measured
+
+    double wall_time() const { return end - start; }
+};
+
+/// A part of a frame's wall time.
+struct FramePart {
+    const char* name;
+    double FrameRecord::*time;
+};
+
+inline constexpr FramePart kFrameParts[] = {
+    {"placing", &FrameRecord::place_time},     {"planning", &FrameRecord::plan_time},
+    {"executing", &FrameRecord::execute_time}, {"checking", &FrameRecord::check_time},
+    {"learning", &FrameRecord::learn_time},    {"measuring", &FrameRecord::measure_time},
+    {"output", &FrameRecord::output_time},
 };
 
 }  // namespace weft

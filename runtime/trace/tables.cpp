@@ -23,11 +23,12 @@ hid_t native_type<double>() {
 
 /// Column for a member of a record that stands `base` bytes into the row.
 template <class Record, class Member>
-RowType::Column column(const char* name, Member Record::*member, std::size_t base = 0) {
+RowType::Column column(const char* name, Member Record::*member, const char* unit = "",
+                       std::size_t base = 0) {
     const Record record{};
     const auto* begin = reinterpret_cast<const std::byte*>(&record);
     const auto* field = reinterpret_cast<const std::byte*>(&(record.*member));
-    return {name, native_type<Member>(), base + static_cast<std::size_t>(field - begin)};
+    return {name, native_type<Member>(), base + static_cast<std::size_t>(field - begin), unit};
 }
 
 /// Collects the columns of a Row<Record>, that of its owner first.
@@ -38,8 +39,8 @@ public:
         : columns_{column(owner, &Row<Record>::owner)} {}
 
     template <class Member>
-    RowColumns& add(const char* name, Member Record::*member) {
-        columns_.push_back(column(name, member, offsetof(Row<Record>, record)));
+    RowColumns& add(const char* name, Member Record::*member, const char* unit = "") {
+        columns_.push_back(column(name, member, unit, offsetof(Row<Record>, record)));
         return *this;
     }
     RowType type() const { return {sizeof(Row<Record>), columns_}; }
@@ -93,12 +94,13 @@ hdf5::Handle device_type(hid_t text, hid_t boolean) {
 }  // namespace
 
 RowType::RowType(std::size_t struct_size, std::vector<Column> columns,
-                 const std::vector<std::string>& doubles)
+                 const std::vector<std::string>& doubles, const char* unit)
     : size_(doubles.empty() ? struct_size : align_to_double(struct_size)) {
     for (const std::string& name : doubles) {
-        columns.push_back({name, H5T_NATIVE_DOUBLE, size_});
+        columns.push_back({name, H5T_NATIVE_DOUBLE, size_, unit});
         size_ += sizeof(double);
     }
+    for (const Column& column : columns) units_.emplace_back(column.unit);
     memory_ = compound_type(size_, columns);
     file_ = hdf5::Handle(H5Tcopy(memory_.id()), H5Tclose, "create a table's row type");
     hdf5::check(H5Tpack(file_.id()), "create a table's row type");
@@ -113,28 +115,38 @@ RowType frame_row_type(std::size_t device_count) {
     const hdf5::Handle hash = short_text_type(sizeof(FrameColumns::state_hash));
     return {sizeof(FrameColumns),
             {column("frame", &FrameColumns::frame),
-             column("sim_time", &FrameColumns::sim_time),
-             column("start", &FrameColumns::start),
-             column("end", &FrameColumns::end),
-             column("planned_makespan", &FrameColumns::planned_makespan),
-             column("measured_makespan", &FrameColumns::measured_makespan),
-             column("lower_bound", &FrameColumns::lower_bound),
-             column("plan_time", &FrameColumns::plan_time),
-             column("transferred_bytes", &FrameColumns::transferred_bytes),
+             column("sim_time", &FrameColumns::sim_time, "s"),
+             column("start", &FrameColumns::start, "s"),
+             column("end", &FrameColumns::end, "s"),
+             column("planned_makespan", &FrameColumns::planned_makespan, "s"),
+             column("measured_makespan", &FrameColumns::measured_makespan, "s"),
+             column("lower_bound", &FrameColumns::lower_bound, "s"),
+             column("plan_time", &FrameColumns::plan_time, "s"),
+             column("place_time", &FrameColumns::place_time, "s"),
+             column("execute_time", &FrameColumns::execute_time, "s"),
+             column("check_time", &FrameColumns::check_time, "s"),
+             column("learn_time", &FrameColumns::learn_time, "s"),
+             column("measure_time", &FrameColumns::measure_time, "s"),
+             column("output_time", &FrameColumns::output_time, "s"),
+             column("pace", &FrameColumns::pace),
+             column("transferred_bytes", &FrameColumns::transferred_bytes, "B"),
              column("graph", &FrameColumns::graph),
 
              {"planner", planner.id(), offsetof(FrameColumns, planner)},
              {"state_hash", hash.id(), offsetof(FrameColumns, state_hash)}},
-            busy};
+            busy,
+            "s"};
 }
 
 RowType energy_row_type(const std::vector<std::string>& energies) {
     std::vector<std::string> others = energies;
     others.emplace_back("total");
-    return {sizeof(EnergyColumns),
-            {column("frame", &EnergyColumns::frame), column("kinetic", &EnergyColumns::kinetic),
-             column("gravity", &EnergyColumns::gravity)},
-            others};
+    return {
+        sizeof(EnergyColumns),
+        {column("frame", &EnergyColumns::frame), column("kinetic", &EnergyColumns::kinetic, "J"),
+         column("gravity", &EnergyColumns::gravity, "J")},
+        others,
+        "J"};
 }
 
 RowType plan_row_type() {
@@ -148,8 +160,8 @@ RowType plan_row_type() {
         .add("home", &PlanRecord::home)
         .add("order", &PlanRecord::order)
         .add("items", &PlanRecord::items)
-        .add("start", &PlanRecord::start)
-        .add("end", &PlanRecord::end)
+        .add("start", &PlanRecord::start, "s")
+        .add("end", &PlanRecord::end, "s")
         .type();
 }
 
@@ -159,8 +171,8 @@ RowType execution_row_type() {
         .add("task", &ExecutionRecord::task)
         .add("device", &ExecutionRecord::device)
         .add("items", &ExecutionRecord::items)
-        .add("start", &ExecutionRecord::start)
-        .add("end", &ExecutionRecord::end)
+        .add("start", &ExecutionRecord::start, "s")
+        .add("end", &ExecutionRecord::end, "s")
         .type();
 }
 
@@ -168,8 +180,8 @@ RowType cost_row_type() {
     return RowColumns<CostRecord>()
         .add("kind", &CostRecord::kind)
         .add("device", &CostRecord::device)
-        .add("fixed", &CostRecord::fixed)
-        .add("per_item", &CostRecord::per_item)
+        .add("fixed", &CostRecord::fixed, "s")
+        .add("per_item", &CostRecord::per_item, "s")
         .add("samples", &CostRecord::samples)
         .type();
 }
@@ -178,8 +190,8 @@ RowType link_row_type() {
     return RowColumns<LinkRecord>()
         .add("from", &LinkRecord::from)
         .add("to", &LinkRecord::to)
-        .add("latency", &LinkRecord::latency)
-        .add("bandwidth", &LinkRecord::bandwidth)
+        .add("latency", &LinkRecord::latency, "s")
+        .add("bandwidth", &LinkRecord::bandwidth, "B/s")
         .type();
 }
 
@@ -195,7 +207,7 @@ RowType dependency_row_type() {
         .add("from", &DependencyRecord::from)
         .add("to", &DependencyRecord::to)
         .add("carried", &DependencyRecord::carried)
-        .add("bytes", &DependencyRecord::bytes)
+        .add("bytes", &DependencyRecord::bytes, "B")
         .type();
 }
 
@@ -205,9 +217,9 @@ RowType transfer_row_type() {
         .add("task", &TransferRecord::task)
         .add("from", &TransferRecord::from)
         .add("to", &TransferRecord::to)
-        .add("bytes", &TransferRecord::bytes)
-        .add("start", &TransferRecord::start)
-        .add("end", &TransferRecord::end)
+        .add("bytes", &TransferRecord::bytes, "B")
+        .add("start", &TransferRecord::start, "s")
+        .add("end", &TransferRecord::end, "s")
         .type();
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/hdf5.h"
 #include "runtime/trace/records.h"
 
 /// The columns of a trace's tables: one definition for writer and reader. The library matches
@@ -35,6 +35,13 @@ struct FrameColumns {
     double measured_makespan = 0.0;
     double lower_bound = 0.0;
     double plan_time = 0.0;
+    double place_time = 0.0;
+    double execute_time = 0.0;
+    double check_time = 0.0;
+    double learn_time = 0.0;
+    double measure_time = 0.0;
+    double output_time = 0.0;
+    double pace = 0.0;  ///< 0: not known
     std::uint64_t transferred_bytes = 0;
     std::uint32_t graph = 0;
     std::array<char, 16> planner{};     ///< filled up with zeros
@@ -55,25 +62,28 @@ struct EnergyColumns {
     double gravity = 0.0;
 };
 
-/// A compound type over a C++ struct, with `doubles` appended behind it.
+/// A compound type over a C++ struct, with `doubles` appended behind it, all of one unit.
 class RowType {
 public:
     struct Column {
         std::string name;
         hid_t type;
         std::size_t offset;
+        const char* unit = "";
     };
 
     RowType(std::size_t struct_size, std::vector<Column> columns,
-            const std::vector<std::string>& doubles = {});
+            const std::vector<std::string>& doubles = {}, const char* unit = "");
 
     hid_t memory() const { return memory_.id(); }
     hid_t file() const { return file_.id(); }              ///< the same columns without gaps
     hid_t owner_only() const { return owner_only_.id(); }  ///< its first column alone
     std::size_t size() const { return size_; }             ///< of a row in memory [bytes]
+    const std::vector<std::string>& units() const { return units_; }  ///< [column]
 
 private:
     std::size_t size_;
+    std::vector<std::string> units_;
     hdf5::Handle memory_;
     hdf5::Handle file_;
     hdf5::Handle owner_only_;

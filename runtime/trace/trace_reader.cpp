@@ -241,6 +241,7 @@ private:
         run_.kinds = hdf5::read_texts(group.id(), "kinds");
         run_.energies = hdf5::read_texts(group.id(), "energies");
         run_.devices = trace::read_devices(group.id());
+        run_.host = read_pairs(group.id(), "host");
         run_.versions = read_pairs(group.id(), "versions");
         run_.settings = read_pairs(group.id(), "settings");
         run_.meshes = read_pairs(group.id(), "meshes");
@@ -263,6 +264,13 @@ private:
             frame.measured_makespan = columns.measured_makespan;
             frame.lower_bound = columns.lower_bound;
             frame.plan_time = columns.plan_time;
+            frame.place_time = columns.place_time;
+            frame.execute_time = columns.execute_time;
+            frame.check_time = columns.check_time;
+            frame.learn_time = columns.learn_time;
+            frame.measure_time = columns.measure_time;
+            frame.output_time = columns.output_time;
+            frame.pace = columns.pace > 0.0 ? columns.pace : 1.0;
             frame.transferred_bytes = columns.transferred_bytes;
             frame.planner = text_of(columns.planner);
             frame.state_hash = text_of(columns.state_hash);

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "runtime/error.h"
-#include "runtime/trace/background_writer.h"
+#include "runtime/io/background_writer.h"
 #include "runtime/trace/tables.h"
 
 namespace weft {
@@ -29,7 +29,9 @@ using trace::RowType;
 class Table {
 public:
     Table(hid_t file, const std::string& name, RowType type, hsize_t chunk_rows, unsigned deflate)
-        : type_(std::move(type)), data_(file, name, type_.file(), {}, chunk_rows, deflate) {}
+        : type_(std::move(type)), data_(file, name, type_.file(), {}, chunk_rows, deflate) {
+        hdf5::write_texts_attribute(data_.id(), "units", type_.units());
+    }
 
     template <class Record>
     void append(std::uint32_t owner, const std::vector<Record>& records) {
@@ -118,6 +120,13 @@ struct Tables {
                                 record.measured_makespan,
                                 record.lower_bound,
                                 record.plan_time,
+                                record.place_time,
+                                record.execute_time,
+                                record.check_time,
+                                record.learn_time,
+                                record.measure_time,
+                                record.output_time,
+                                record.pace,
                                 record.transferred_bytes,
                                 record.graph ? record.graph->graph : trace::kNoGraph,
                                 {},
@@ -197,6 +206,7 @@ void write_run(hid_t file, const RunDescription& run) {
     hdf5::write_texts(group.id(), "kinds", run.kinds);
     hdf5::write_texts(group.id(), "energies", run.energies);
     trace::write_devices(group.id(), run.devices);
+    write_pairs(group.id(), "host", run.host);
     write_pairs(group.id(), "versions", run.versions);
     write_pairs(group.id(), "settings", run.settings);
     if (!run.meshes.empty()) write_pairs(group.id(), "meshes", run.meshes);
@@ -211,16 +221,15 @@ public:
           device_count_(run.devices.size()),
           energy_count_(run.energies.size()) {
         guarded([&] { create(run); });
-        background_.emplace(
-            [this](FrameRecord& record) { guarded([&] { tables_->append(record); }); });
+        background_.emplace([this](Item& item) { write(item); });
     }
 
-    void append(FrameRecord record) {
-        if (record.busy.size() != device_count_ || record.energies.size() != energy_count_) {
-            throw std::invalid_argument("a frame's record does not fit the run's description");
-        }
-        background_->push(std::move(record));
+    void append(FrameRecord record, std::function<void(FrameRecord&)> complete) {
+        if (!complete) check(record);
+        background_->push({std::move(record), std::move(complete)});
     }
+
+    void settle() { background_->drain(); }
 
     void finish(const std::string& state_hash) {
         background_->drain();
@@ -236,6 +245,22 @@ public:
     }
 
 private:
+    struct Item {
+        FrameRecord record;
+        std::function<void(FrameRecord&)> complete;
+    };
+
+    void check(const FrameRecord& record) const {
+        if (record.busy.size() == device_count_ && record.energies.size() == energy_count_) return;
+        throw std::invalid_argument("a frame's record does not fit the run's description");
+    }
+
+    void write(Item& item) {
+        if (item.complete) item.complete(item.record);
+        check(item.record);
+        guarded([&] { tables_->append(item.record); });
+    }
+
     void create(const RunDescription& run) {
         file_ = hdf5::create_file(path_, hdf5::FileFormat::kSwmr);
         write_run(file_.id(), run);
@@ -262,7 +287,7 @@ private:
     const std::size_t energy_count_;
     hdf5::Handle file_;
     std::optional<Tables> tables_;
-    std::optional<BackgroundWriter<FrameRecord>> background_;
+    std::optional<BackgroundWriter<Item>> background_;
 };
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, const RunDescription& run)
@@ -270,7 +295,11 @@ TraceWriter::TraceWriter(const std::filesystem::path& path, const RunDescription
 
 TraceWriter::~TraceWriter() = default;
 
-void TraceWriter::append(FrameRecord record) { impl_->append(std::move(record)); }
+void TraceWriter::append(FrameRecord record, std::function<void(FrameRecord&)> complete) {
+    impl_->append(std::move(record), std::move(complete));
+}
+
+void TraceWriter::settle() { impl_->settle(); }
 
 void TraceWriter::finish(const std::string& state_hash) { impl_->finish(state_hash); }
 

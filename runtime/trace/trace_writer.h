@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -29,7 +30,11 @@ public:
     TraceWriter& operator=(const TraceWriter&) = delete;
 
     /// Frames come in rising order. Sizes of `busy` and `energies` must match the RunDescription.
-    void append(FrameRecord record);
+    /// complete: called on the background thread before the record is written, for what takes long
+    /// to find out; it may throw nothing.
+    void append(FrameRecord record, std::function<void(FrameRecord&)> complete = {});
+    /// Waits until the frames so far are written; the next append() then does not.
+    void settle();
 
     /// Waits for the last frame, records the final state hash, marks the trace as finished, closes
     /// it.

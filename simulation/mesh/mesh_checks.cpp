@@ -96,6 +96,11 @@ CrowdedEdges crowded_edges(const TriangleMesh& mesh) {
     return crowded;
 }
 
+bool spans_area(Vec3 ab, Vec3 ac) {
+    const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
+    return length(cross(ab, ac)) > kFlattest * longest;
+}
+
 }  // namespace
 
 void check_areas(const TriangleMesh& mesh) {
@@ -103,13 +108,19 @@ void check_areas(const TriangleMesh& mesh) {
         const Vec3 p = rounded(mesh.positions[a]);
         const Vec3 ab = rounded(mesh.positions[b]) - p;
         const Vec3 ac = rounded(mesh.positions[c]) - p;
-        const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
-        const double double_area = length(cross(ab, ac));
-        if (double_area > kFlattest * longest) continue;
+        if (spans_area(ab, ac)) continue;
         throw UserError(fmt::format(
             "{}: degenerate triangle over the vertices {}, {}, {} (counted from 1): it has no area "
             "in single precision; its first corner is at ({}, {}, {})",
             mesh.source, a + 1, b + 1, c + 1, p.x, p.y, p.z));
+    }
+    for (std::size_t t = 0; t < mesh.rest.size(); ++t) {
+        const auto& [a, b, c] = mesh.rest[t];
+        if (spans_area(rounded(b) - rounded(a), rounded(c) - rounded(a))) continue;
+        throw UserError(
+            fmt::format("{}: degenerate triangle {} (counted from 1): it has no area in single "
+                        "precision; its first corner is at ({}, {}, {})",
+                        mesh.rest_source, t + 1, a.x, a.y, a.z));
     }
 }
 
@@ -121,20 +132,27 @@ void drop_duplicates(TriangleMesh& mesh, Warnings& warnings) {
                     "is triangle {} (counted from 1)",
                     mesh.source, repeated.size(), repeated.front() + 1));
     std::vector<std::array<int, 3>> kept;
+    std::vector<std::array<std::array<double, 2>, 3>> texture;
+    std::vector<std::array<Vec3, 3>> kept_rest;
     std::vector<MeshPart> parts;
     auto skip = repeated.begin();
     for (const MeshPart& part : mesh.parts) {
         const int begin = static_cast<int>(kept.size());
         for (int t = part.first_triangle; t < part.first_triangle + part.triangle_count; ++t) {
-            if (skip != repeated.end() && *skip == t)
+            if (skip != repeated.end() && *skip == t) {
                 ++skip;
-            else
-                kept.push_back(mesh.triangles[t]);
+                continue;
+            }
+            kept.push_back(mesh.triangles[t]);
+            if (!mesh.texture.empty()) texture.push_back(mesh.texture[t]);
+            if (!mesh.rest.empty()) kept_rest.push_back(mesh.rest[static_cast<std::size_t>(t)]);
         }
         const int count = static_cast<int>(kept.size()) - begin;
-        if (count > 0) parts.push_back({part.name, begin, count});
+        if (count > 0) parts.push_back({part.name, begin, count, part.object});
     }
     mesh.triangles = std::move(kept);
+    mesh.texture = std::move(texture);
+    mesh.rest = std::move(kept_rest);
     mesh.parts = std::move(parts);
 }
 

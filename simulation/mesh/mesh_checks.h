@@ -4,8 +4,9 @@
 
 namespace weft {
 
-/// Throws UserError for a triangle that has no area, as the kernels' single precision sees it: its
-/// edges and bending weights would be made of rounding errors. Call it on positions in the world.
+/// Throws UserError for a triangle that has no area, now or at rest, as the kernels' single
+/// precision sees it: its edges and bending weights would be made of rounding errors. Call it on
+/// positions in the world.
 void check_areas(const TriangleMesh& mesh);
 
 /// Drops the second and later of triangles over the same three vertices, with a warning.

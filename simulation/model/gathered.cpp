@@ -1,30 +1,13 @@
 #include "simulation/model/gathered.h"
 
-#include "simulation/model/attachments.h"
-#include "simulation/scene/cloth_mesh.h"
-#include "simulation/scene/solid_mesh.h"
+#include "simulation/bodies/cloth_mesh.h"
+#include "simulation/bodies/solid_mesh.h"
+#include "simulation/families/builder.h"
 #include "simulation/topology/adjacency.h"
 
 namespace weft {
 
 namespace {
-
-template <std::size_t arity>
-void append(Stencils& all, const std::vector<std::array<int, arity>>& some, int first_vertex) {
-    for (const auto& element : some) {
-        for (const int vertex : element) all.vertices.push_back(vertex + first_vertex);
-    }
-}
-
-void append(Stencils& all, const Stencils& some, int first_vertex) {
-    for (const int vertex : some.vertices) all.vertices.push_back(vertex + first_vertex);
-}
-
-/// Gives every element without one this value: those of the body that was just appended.
-template <class Value>
-void fill(std::vector<Value>& values, const Stencils& elements, const Value& value) {
-    values.resize(static_cast<std::size_t>(elements.count()), value);
-}
 
 /// What cloths and solids have in common. Returns the body's first vertex.
 template <class Body, class Mesh>
@@ -66,33 +49,21 @@ void add_mass(Gathered& all, const std::array<int, arity>& element, int first, d
     }
 }
 
-double area(const TriangleMesh& mesh, const std::array<int, 3>& t) {
-    const auto corner = [&](std::size_t k) {
-        return mesh.positions[static_cast<std::size_t>(t[k])];
-    };
-    return 0.5 * length(cross(corner(1) - corner(0), corner(2) - corner(0)));
-}
-
-void add_cloth(Gathered& all, const Cloth& cloth, Warnings& warnings) {
+void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& warnings) {
     const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
     const int first = add_body(all, "cloth", cloth, mesh);
+    if (std::holds_alternative<MeshFile>(cloth.shape)) all.bodies.back().parts = named_parts(mesh);
     add_surface(all, mesh.triangles, first);
-    for (const auto& t : mesh.triangles) add_mass(all, t, first, cloth.density * area(mesh, t));
+    const RestShape rest(mesh);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        add_mass(all, mesh.triangles[t], first, cloth.density * rest.area_of(t));
+    }
 
     std::vector<int> corners;
     for (const auto& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
     const Adjacency adjacency = find_adjacency(mesh.vertex_count(), corners);
-    if (cloth.stretch.stiffness > 0.0) {
-        append(all.springs, adjacency.edges, first);
-        fill(all.spring_stiffness, all.springs, cloth.stretch.stiffness);
-    }
-    if (cloth.membrane) {
-        append(all.membranes, mesh.triangles, first);
-        fill(all.membrane_stiffness, all.membranes, stiffness_of(*cloth.membrane));
-    }
-    if (cloth.bend) {
-        append(all.hinges, adjacency.hinges, first);
-        fill(all.hinge_stiffness, all.hinges, cloth.bend->stiffness);
+    for (const auto& family : all.families) {
+        family->add(ClothPart{scene, cloth, mesh, adjacency, rest, first});
     }
 }
 
@@ -103,22 +74,18 @@ void add_solid(Gathered& all, const Solid& solid, Warnings& warnings) {
     for (const auto& t : mesh.tetrahedra) {
         add_mass(all, t, first, solid.density * six_volumes(mesh, t) / 6.0);
     }
-    append(all.tetrahedra, mesh.tetrahedra, first);
-    fill(all.tetrahedron_stiffness, all.tetrahedra, stiffness_of(solid.material));
+    for (const auto& family : all.families) family->add(SolidPart{solid, mesh, first});
 }
 
 }  // namespace
 
 Gathered gather(const Scene& scene, Warnings& warnings) {
     Gathered all;
-    for (const Cloth& cloth : scene.cloths) add_cloth(all, cloth, warnings);
+    all.families = make_family_builders();
+    for (const Cloth& cloth : scene.cloths) add_cloth(all, scene, cloth, warnings);
     for (const Solid& solid : scene.solids) add_solid(all, solid, warnings);
-    all.edge_count = all.springs.count();
-    for (const Attachment& attachment : scene.attachments) {
-        const auto ties = find_ties(attachment, scene, all.bodies, all.rest);
-        append(all.springs, ties, 0);
-        fill(all.spring_stiffness, all.springs, attachment.stiffness);
-    }
+    for (const auto& family : all.families) family->add(ScenePart{scene, all.bodies, all.rest});
+    std::erase_if(all.families, [](const auto& family) { return family->stencils().count() == 0; });
     return all;
 }
 

@@ -1,12 +1,19 @@
 #include "simulation/model/model.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "simulation/model/convert.h"
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/families/convert.h"
+#include "simulation/model/load_paths.h"
 
 namespace weft {
 
 namespace {
+
+/// Elastic forces make vertices faster. Twice is seldom reached within a frame.
+constexpr double kMargin = 2.0;
 
 /// Pins in the new order of vertices, ascending.
 std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> groups,
@@ -26,10 +33,61 @@ std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> group
     return groups;
 }
 
+double strongest_gravity(const Scene& scene) {
+    constexpr double kLeast = 1.0;  // [m/s^2] something moves in every scene
+    double strongest =
+        std::max(kLeast, length(scene.gravity_keys.empty() ? scene.gravity : Vec3{}));
+    for (const GravityKey& key : scene.gravity_keys) {
+        strongest = std::max(strongest, length(key.gravity));
+    }
+    return strongest;
+}
+
+std::vector<LoadPath> load_paths(const Gathered& all) {
+    std::vector<Stencils> links;
+    for (const auto& family : all.families) {
+        if (family->stencils().arity == 2) links.push_back(family->stencils());
+    }
+    return load_paths(all, links);
+}
+
+Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
+    if (scene.substeps > 0) return scene;
+    scene.substeps =
+        believable_substeps(paths, scene.dt, scene.solver.iterations, strongest_gravity(scene));
+    return scene;
+}
+
+/// As many substeps as the scene needs where it does not say how many; where it says too few, a
+/// warning.
+Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings) {
+    constexpr double kUnbelievable = 0.1;
+    const std::vector<LoadPath> paths = load_paths(all);
+    Scene scene = with_substeps(given, paths);
+    const double gravity = strongest_gravity(scene);
+    const int iterations = scene.solver.iterations;
+    for (const LoadPath& path : paths) {
+        const double strain =
+            unfinished_strain(path, scene.dt / scene.substeps, iterations, gravity);
+        if (strain < kUnbelievable) continue;
+        warnings.push_back(fmt::format(
+            "'{}' is too fine for scene.substeps = {} of {} iterations: they will leave it "
+            "stretched "
+            "by some {:.0f} %, whatever its stiffness; {} substeps would make that half a per cent",
+            path.body, scene.substeps, iterations, 100.0 * strain,
+            believable_substeps(paths, scene.dt, iterations, gravity)));
+        break;
+    }
+    return scene;
+}
+
 }  // namespace
 
-Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt / given.substeps) {
-    Gathered all = gather(scene, warnings);
+Model::Model(const Scene& given, Warnings& warnings)
+    : Model(given, gather(given, warnings), warnings) {}
+
+Model::Model(const Scene& given, Gathered all, Warnings& warnings)
+    : scene(with_substeps(given, all, warnings)), h(scene.dt / scene.substeps) {
     bodies = std::move(all.bodies);
     triangles = std::move(all.triangles);
     triangle_body = std::move(all.triangle_body);
@@ -38,16 +96,17 @@ Model::Model(const Scene& given, Warnings& warnings) : scene(given), h(given.dt 
     StripOptions options;
     options.extra_levels = is_vertex_wise(scene.solver.method) ? 1 : 0;
     std::vector<Stencils> kinds;
-    for (const Stencils* kind : {&all.springs, &all.membranes, &all.hinges, &all.tetrahedra}) {
-        if (kind->count() > 0) kinds.push_back(*kind);
-    }
+    for (const auto& family : all.families) kinds.push_back(family->stencils());
     strips = make_strips(static_cast<int>(all.rest.size()), kinds, options);
     strip_begin_ = std::make_unique<Buffer<int>>("strips", strips.begin.size());
     std::copy(strips.begin.begin(), strips.begin.end(), strip_begin_->data());
     vertices_ = {strip_begin_.get(), 0, 1, strips.count()};
 
     make_vertices(all);
-    make_elements(all);
+    for (const auto& family : all.families) {
+        families.push_back(family->build(strips, all.rest));
+        families.back()->reserve(scene.substeps);
+    }
     if (!all.moving.empty()) {
         moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
                                                    strips, scene.substeps);
@@ -73,22 +132,10 @@ void Model::make_vertices(const Gathered& all) {
     }
 }
 
-void Model::make_elements(const Gathered& all) {
-    if (all.springs.count() > 0) {
-        springs = std::make_unique<Springs>(all.springs, strips, all.rest, all.spring_stiffness,
-                                            all.edge_count);
-    }
-    if (all.membranes.count() > 0) {
-        membranes =
-            std::make_unique<Membranes>(all.membranes, strips, all.rest, all.membrane_stiffness);
-    }
-    if (all.hinges.count() > 0) {
-        hinges = std::make_unique<Hinges>(all.hinges, strips, all.rest, all.hinge_stiffness);
-    }
-    if (all.tetrahedra.count() > 0) {
-        tetrahedra = std::make_unique<Tetrahedra>(all.tetrahedra, strips, all.rest,
-                                                  all.tetrahedron_stiffness);
-    }
+std::vector<Stencils> Model::stencils() const {
+    std::vector<Stencils> kinds;
+    for (const auto& family : families) kinds.push_back(family->elements().stencils());
+    return kinds;
 }
 
 void Model::place(double time) {
@@ -97,14 +144,57 @@ void Model::place(double time) {
             to_float4(scene.gravity_at(time + (substep + 0.5) * h));
     }
     if (moving_pins) moving_pins->place(time, h);
-    if (obstacles) obstacles->place(time, h);
+    for (const auto& family : families) family->place(time, h);
+    time_ = time;
+    if (obstacles) place_obstacles(obstacles->have_width() ? speed_ahead() : 0.0);
+}
+
+void Model::place_obstacles(double speed) {
+    speed_limit_ = speed;
+    swept_ = obstacles->place(time_, h, speed);
+}
+
+bool Model::outran_obstacles() {
+    if (!obstacles || !obstacles->have_width()) return false;
+    const double speed = fastest();
+    if (!(speed > speed_limit_)) return false;
+    const int before = swept_;
+    place_obstacles(kMargin * speed);
+    return swept_ > before;
+}
+
+/// The largest speed of a vertex [m/s]; what is not a number is passed over.
+double Model::fastest() const {
+    float most = 0.0f;
+    for (const float4& v : velocities->span()) {
+        const float square = v.x * v.x + v.y * v.y + v.z * v.z;
+        if (square > most) most = square;
+    }
+    return std::sqrt(static_cast<double>(most));
+}
+
+/// What no vertex will outrun in the frame, if all goes well [m/s].
+double Model::speed_ahead() const {
+    double fall = 0.0;
+    for (const float4& g : gravity->span()) fall = std::max(fall, length(to_vec3(g)));
+    const double pins = moving_pins ? moving_pins->farthest_move(time_, h) / h : 0.0;
+    return kMargin * fastest() + fall * scene.dt + pins;
 }
 
 std::vector<BufferStorage*> Model::placed_buffers() {
     std::vector<BufferStorage*> buffers{gravity.get()};
     if (moving_pins) buffers.push_back(&moving_pins->motions());
     if (obstacles) buffers.push_back(&obstacles->placements());
+    for (const auto& family : families) {
+        if (BufferStorage* buffer = family->placed_buffer()) buffers.push_back(buffer);
+    }
     return buffers;
+}
+
+Scene with_substeps(const Scene& scene) {
+    if (scene.substeps > 0) return scene;
+    Warnings warnings;
+    return with_substeps(scene, load_paths(gather(scene, warnings)));
 }
 
 }  // namespace weft

@@ -2,16 +2,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "simulation/families/family.h"
 #include "simulation/mesh/triangle_mesh.h"
 #include "simulation/model/gathered.h"
-#include "simulation/model/hinges.h"
-#include "simulation/model/membranes.h"
 #include "simulation/model/moving_pins.h"
 #include "simulation/model/obstacles.h"
-#include "simulation/model/springs.h"
-#include "simulation/model/tetrahedra.h"
 #include "simulation/scene/scene.h"
 
 namespace weft {
@@ -25,16 +23,39 @@ public:
     Model(const Scene& scene, Warnings& warnings);
 
     int vertex_count() const { return static_cast<int>(strips.order.size()); }
-    /// Fills in what moves by itself during the frame that begins at `time`.
+    /// A vertex of the new order in scene order.
+    int scene_vertex(int vertex) const { return strips.order[static_cast<std::size_t>(vertex)]; }
+    /// xyz in scene order, [3 * vertex_count()]. rows  float4 or Vec3 per vertex, in new order
+    template <class Rows>
+    std::vector<float> in_scene_order(const Rows& rows) const;
+    /// The other way: xyz of every row; what else a row has stays as it is.
+    template <class Rows>
+    void from_scene_order(std::span<const float> xyz, Rows&& rows) const;
+    /// Fills in what moves by itself during the frame that begins at `time`; the velocities are
+    /// those of its start.
     void place(double time);
+    /// After that frame: whether vertices got so fast in it that obstacles have to be swept that
+    /// were not. Then these are placed anew for it, and it has to run again from its start.
+    bool outran_obstacles();
     /// The buffers that place() writes.
     std::vector<BufferStorage*> placed_buffers();
+
+    /// All elements, in new vertices: who touches whom.
+    std::vector<Stencils> stencils() const;
+    /// The family of that class; null: the scene has no elements of it.
+    template <class Family>
+    Family* find() const {
+        for (const auto& family : families) {
+            if (auto* found = dynamic_cast<Family*>(family.get())) return found;
+        }
+        return nullptr;
+    }
 
     /// The vertices of each strip, as items.
     const Segments& vertices() const { return vertices_; }
 
-    const Scene scene;
-    const double h;  ///< one substep [s]
+    const Scene scene;  ///< as given, with substeps chosen where the file leaves them out
+    const double h;     ///< one substep [s]
 
     // As the scene has it (scene order).
     std::vector<BodyRange> bodies;
@@ -50,19 +71,49 @@ public:
     std::vector<double> masses;                  ///< [kg]; of held vertices, too
     bool damped = false;
 
-    std::unique_ptr<Springs> springs;         ///< edges and attachments; null: neither
-    std::unique_ptr<Membranes> membranes;     ///< null: no cloth has one
-    std::unique_ptr<Hinges> hinges;           ///< null: no bending
-    std::unique_ptr<Tetrahedra> tetrahedra;   ///< null: no solids
+    /// Those that the scene has elements of, in the order of element_families.h.
+    std::vector<std::unique_ptr<ElementFamily>> families;
     std::unique_ptr<MovingPins> moving_pins;  ///< null: no pin moves
     std::unique_ptr<Obstacles> obstacles;     ///< null: none
 
 private:
+    Model(const Scene& scene, Gathered all, Warnings& warnings);
     void make_vertices(const Gathered& all);
-    void make_elements(const Gathered& all);
 
+    void place_obstacles(double speed);
+    double fastest() const;
+    double speed_ahead() const;
+
+    double time_ = 0.0;         ///< start of the frame that place() was for [s]
+    double speed_limit_ = 0.0;  ///< that obstacles are placed for [m/s]
+    int swept_ = 0;             ///< obstacles, of all its substeps
     std::unique_ptr<Buffer<int>> strip_begin_;
     Segments vertices_;
 };
+
+template <class Rows>
+std::vector<float> Model::in_scene_order(const Rows& rows) const {
+    std::vector<float> xyz(3 * rows.size());
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        float* to = &xyz[3 * static_cast<std::size_t>(strips.order[v])];
+        to[0] = static_cast<float>(rows[v].x);
+        to[1] = static_cast<float>(rows[v].y);
+        to[2] = static_cast<float>(rows[v].z);
+    }
+    return xyz;
+}
+
+template <class Rows>
+void Model::from_scene_order(std::span<const float> xyz, Rows&& rows) const {
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        const float* from = &xyz[3 * static_cast<std::size_t>(strips.order[v])];
+        rows[v].x = from[0];
+        rows[v].y = from[1];
+        rows[v].z = from[2];
+    }
+}
+
+/// The scene with as many substeps as a model of it has. Reads its meshes where it leaves them out.
+Scene with_substeps(const Scene& scene);
 
 }  // namespace weft

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/motion.h"
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 
 namespace weft {
 
@@ -40,6 +40,20 @@ void MovingPins::place(double time, double h) {
             for (std::size_t k = 0; k < 3; ++k) *rows++ = to_float4(map.axes.rows[k], t[k]);
         }
     }
+}
+
+double MovingPins::farthest_move(double time, double h) const {
+    double most = 0.0;
+    for (int substep = 0; substep < substeps_; ++substep) {
+        for (const Group& group : groups_) {
+            const Frame before = group.motion.displacement(time + substep * h);
+            const Frame now = group.motion.displacement(time + (substep + 1) * h);
+            for (const Vec3& p : group.rest) {
+                most = std::max(most, length(now.to_world(p) - before.to_world(p)));
+            }
+        }
+    }
+    return most;
 }
 
 void MovingPins::place_at(double time, std::span<Vec3> positions) const {

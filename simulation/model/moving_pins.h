@@ -22,6 +22,8 @@ public:
 
     /// Fills in the frame that begins at `time` and has substeps of h [s].
     void place(double time, double h);
+    /// The farthest that a pin goes in a substep of that frame [m].
+    double farthest_move(double time, double h) const;
     /// Writes where the pins are at `time` into their places of `positions` (new order).
     void place_at(double time, std::span<Vec3> positions) const;
     Buffer<float4>& motions() { return motions_; }

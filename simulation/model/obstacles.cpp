@@ -1,10 +1,11 @@
 #include "simulation/model/obstacles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "kernels/obstacles/shapes.h"
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 
 namespace weft {
 
@@ -22,12 +23,11 @@ struct ContactArguments {
 
 template <class Push, class Rub>
 Launch contact(Push push, Rub rub, const ContactArguments& a) {
-    if (!a.friction) {
-        return launch(push, a.vertices, a.positions, a.placements, a.obstacle_count, a.obstacle,
-                      kInstance);
-    }
-    return launch(rub, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
-                  a.obstacle, kInstance);
+    const auto with = [&](auto kernel) {
+        return launch(kernel, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
+                      a.obstacle, kInstance);
+    };
+    return a.friction ? with(rub) : with(push);
 }
 
 /// The kernels of each shape of obstacle_shapes.h.
@@ -45,15 +45,57 @@ void write_rows(float4* rows, const Mat3& rotation, Vec3 translation) {
     for (std::size_t k = 0; k < 3; ++k) rows[k] = to_float4(rotation.rows[k], t[k]);
 }
 
-void write_placement(float4* rows, const Obstacle& obstacle, double start, double end) {
-    const Frame now = obstacle.frame_at(end);
-    const Frame before = obstacle.frame_at(start);
-    const Mat3 to_local = transposed(now.axes);
-    write_rows(rows, to_local, -(to_local * now.origin));
-    write_rows(rows + 3, before.axes, before.origin);
+/// An obstacle at the start and at the end of a substep.
+struct Stay {
+    Frame before, now;
+    double move = 0.0;  ///< [m] of its fastest point
+};
+
+std::vector<Stay> stays_of(const std::vector<Obstacle>& obstacles, double start, double end) {
+    std::vector<Stay> stays;
+    for (const Obstacle& o : obstacles) {
+        const Stay stay{o.frame_at(start), o.frame_at(end)};
+        stays.push_back(stay);
+        stays.back().move = farthest_move(stay.before, stay.now, o.half_size);
+    }
+    return stays;
+}
+
+/// Vertices take on the speed of what pushes them.
+double farthest_of_others(const std::vector<Stay>& stays, std::size_t own) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < stays.size(); ++i) {
+        if (i != own) most = std::max(most, stays[i].move);
+    }
+    return most;
+}
+
+/// Whether something that comes [m] nearer in one substep may get past the middle of the obstacle,
+/// where it would be pushed out on the wrong side, or not at all.
+bool may_be_passed(const Obstacle& obstacle, double way) {
+    return way > 0.5 * obstacle.half_width + obstacle.thickness;
+}
+
+void write_placement(float4* rows, const Obstacle& obstacle, const Stay& stay, bool is_swept) {
+    const Mat3 to_local = transposed(stay.now.axes);
+    write_rows(rows, to_local, -(to_local * stay.now.origin));
+    write_rows(rows + 3, stay.before.axes, stay.before.origin);
     const auto& d = obstacle.dimensions;
     rows[6] = to_float4({d[0], d[1], d[2]}, d[3]);
-    rows[7] = to_float4({obstacle.thickness, obstacle.friction.value_or(0.0), 0.0});
+    rows[7] =
+        to_float4({obstacle.thickness, obstacle.friction.value_or(0.0), is_swept ? 1.0 : 0.0});
+}
+
+kernels::nearness near_obstacle(const Obstacle& obstacle, Vec3 local) {
+    const auto& d = obstacle.dimensions;
+    const float4 dimensions = to_float4({d[0], d[1], d[2]}, d[3]);
+    const float4 p = to_float4(local);
+    const kernels::real3 point = kernels::make3(p.x, p.y, p.z);
+#define WEFT_TRY_SHAPE(name) \
+    if (obstacle.shape == #name) return kernels::near_##name(point, dimensions);
+    WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
+#undef WEFT_TRY_SHAPE
+    throw std::logic_error("obstacle shape '" + obstacle.shape + "' has no distance");
 }
 
 }  // namespace
@@ -64,19 +106,35 @@ Obstacles::Obstacles(const std::vector<Obstacle>& obstacles, int substeps)
       placements_("obstacles",
                   static_cast<std::size_t>(substeps) * obstacles.size() * WEFT_OBSTACLE_ROWS) {}
 
-void Obstacles::place(double time, double h) {
+int Obstacles::place(double time, double h, double vertex_speed) {
+    int swept = 0;
     float4* rows = placements_.data();
     for (int substep = 0; substep < substeps_; ++substep) {
-        for (const Obstacle& obstacle : obstacles_) {
-            write_placement(rows, obstacle, time + substep * h, time + (substep + 1) * h);
+        const auto stays = stays_of(obstacles_, time + substep * h, time + (substep + 1) * h);
+        for (std::size_t i = 0; i < stays.size(); ++i) {
+            const double way = vertex_speed * h + stays[i].move + farthest_of_others(stays, i);
+            const bool is_swept = may_be_passed(obstacles_[i], way);
+            write_placement(rows, obstacles_[i], stays[i], is_swept);
             rows += WEFT_OBSTACLE_ROWS;
+            swept += is_swept ? 1 : 0;
         }
     }
+    return swept;
+}
+
+bool Obstacles::have_width() const {
+    return std::any_of(obstacles_.begin(), obstacles_.end(),
+                       [](const Obstacle& o) { return std::isfinite(o.half_width); });
 }
 
 bool Obstacles::have_friction() const {
     return std::any_of(obstacles_.begin(), obstacles_.end(),
                        [](const Obstacle& o) { return o.friction.has_value(); });
+}
+
+double distance_to(const Obstacle& obstacle, Vec3 point, double time) {
+    return static_cast<double>(
+        near_obstacle(obstacle, obstacle.frame_at(time).to_local(point)).distance);
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,

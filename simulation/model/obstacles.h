@@ -12,10 +12,14 @@ class Obstacles {
 public:
     Obstacles(const std::vector<Obstacle>& obstacles, int substeps);
 
-    /// Fills in the frame that begins at `time` and has substeps of h [s].
-    void place(double time, double h);
+    /// Fills in the frame that begins at `time` and has substeps of h [s], for vertices of at most
+    /// so much speed [m/s]. Returns how many obstacles are swept, of all substeps: only where
+    /// something may get past one in a single substep.
+    int place(double time, double h, double vertex_speed);
     Buffer<float4>& placements() { return placements_; }
 
+    /// Whether there are any that something could get past: of a plane nothing can.
+    bool have_width() const;
     bool have_friction() const;
     /// One launch per obstacle that pushes all vertices out of it.
     /// vertices: one segment per strip
@@ -27,5 +31,8 @@ private:
     int substeps_;
     Buffer<float4> placements_;  ///< [substep][obstacle][WEFT_OBSTACLE_ROWS]
 };
+
+/// The signed distance [m] of a point of the world from an obstacle's surface at `time` [s].
+double distance_to(const Obstacle& obstacle, Vec3 point, double time);
 
 }  // namespace weft

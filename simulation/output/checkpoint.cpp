@@ -1,46 +1,46 @@
 #include "simulation/output/checkpoint.h"
 
-#include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include "runtime/error.h"
+#include "runtime/io/whole_file.h"
 
 namespace weft {
 
 namespace {
 
-// Text lines: format, origin, frame, sizes of the buffers; then their bytes, then kEnd.
-constexpr const char* kFormat = "weft-checkpoint 1";
+// Text lines: format, origin, frame, sizes of the report and the buffers; then their bytes, then
+// kEnd.
+constexpr const char* kFormat = "weft-checkpoint 2";
 constexpr const char* kEnd = "end";
+
+template <class Bytes>
+std::string_view text_of(const Bytes& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+template <class Bytes>
+void read_bytes(std::istream& in, Bytes& bytes) {
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
 
 }  // namespace
 
-std::filesystem::path unfinished_checkpoint(const std::filesystem::path& path) {
-    return path.string() + ".part";
-}
-
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint) {
-    const std::filesystem::path part = unfinished_checkpoint(path);
-    errno = 0;
-    {
-        std::ofstream out(part, std::ios::binary);
-        out << kFormat << '\n' << origin << '\n' << checkpoint.frame;
-        out << '\n' << checkpoint.buffers.size();
-        for (const auto& buffer : checkpoint.buffers) out << ' ' << buffer.size();
-        out << '\n';
-        for (const auto& buffer : checkpoint.buffers) {
-            out.write(reinterpret_cast<const char*>(buffer.data()),
-                      static_cast<std::streamsize>(buffer.size()));
-        }
-        out << kEnd << std::flush;
-        if (out && std::rename(part.c_str(), path.c_str()) == 0) return;
-    }
-    const std::string reason = errno != 0 ? std::strerror(errno) : "write failed";
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw RunError(path.string() + ": cannot write the checkpoint: " + reason);
+    std::string head = std::string(kFormat) + '\n' + origin + '\n';
+    head += std::to_string(checkpoint.frame) + '\n' + std::to_string(checkpoint.report.size());
+    head += ' ' + std::to_string(checkpoint.buffers.size());
+    for (const auto& buffer : checkpoint.buffers) head += ' ' + std::to_string(buffer.size());
+
+    WholeFile file(path, " the checkpoint");
+    file.write(head + '\n');
+    file.write(text_of(checkpoint.report));
+    for (const auto& buffer : checkpoint.buffers) file.write(text_of(buffer));
+    file.write(kEnd);
+    file.finish();
 }
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
@@ -61,23 +61,23 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
                         "weft; --force starts it anew");
     }
     const std::uintmax_t file_size = std::filesystem::file_size(path);
-    Checkpoint checkpoint;
-    std::size_t count = 0;
-    in >> checkpoint.frame >> count;
-    if (!in || checkpoint.frame < 0 || count > 1000) throw damaged();
     std::uintmax_t sum = 0;
-    for (std::size_t b = 0; b < count; ++b) {
+    const auto read_size = [&] {
         std::uintmax_t size = 0;
         in >> size;
         sum += size;
         if (!in || size > file_size || sum > file_size) throw damaged();
-        checkpoint.buffers.emplace_back(size);
-    }
+        return size;
+    };
+    Checkpoint checkpoint;
+    in >> checkpoint.frame;
+    if (!in || checkpoint.frame < 0) throw damaged();
+    checkpoint.report.resize(read_size());
+    const std::uintmax_t count = read_size();
+    for (std::uintmax_t b = 0; b < count; ++b) checkpoint.buffers.emplace_back(read_size());
     in.get();  // the line's end
-    for (auto& buffer : checkpoint.buffers) {
-        in.read(reinterpret_cast<char*>(buffer.data()),
-                static_cast<std::streamsize>(buffer.size()));
-    }
+    read_bytes(in, checkpoint.report);
+    for (auto& buffer : checkpoint.buffers) read_bytes(in, buffer);
     in.read(end.data(), static_cast<std::streamsize>(end.size()));
     if (!in || end != kEnd) throw damaged();
     return checkpoint;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,19 +9,17 @@
 
 namespace weft {
 
-/// The state of a simulation between two frames.
+/// The state of a run between two frames.
 struct Checkpoint {
     int frame = 0;                                ///< the next one
     std::vector<std::vector<std::byte>> buffers;  ///< as Simulation::checkpoint() gives them
+    std::vector<std::uint8_t> report;             ///< as SummaryBuilder::save() gives it
 };
 
 /// Writes it beside the file first, then takes the file's name: whole or not at all, and a killed
 /// run leaves the one before. origin: what the run was made from, in one line. Throws RunError.
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint);
-
-/// Where a checkpoint is written until it is whole; what a killed run left there is of no use.
-std::filesystem::path unfinished_checkpoint(const std::filesystem::path& path);
 
 /// None if the file is missing. Throws UserError if it is no checkpoint, is damaged, or was made
 /// from something else.

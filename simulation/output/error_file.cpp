@@ -6,7 +6,7 @@
 #include <array>
 
 #include "runtime/error.h"
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/hdf5.h"
 
 namespace weft {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "runtime/error.h"
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/hdf5.h"
 
 namespace weft {
 

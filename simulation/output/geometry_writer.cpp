@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "runtime/error.h"
-#include "runtime/trace/background_writer.h"
+#include "runtime/io/background_writer.h"
+#include "simulation/output/chunk_codec.h"
 #include "simulation/output/vtkhdf_file.h"
 #include "simulation/output/xdmf_file.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 struct Step {
     double time = 0.0;
-    std::vector<float> positions;
+    std::function<std::vector<float>()> positions;
 };
 
 std::vector<std::int32_t> body_of_each_triangle(const std::vector<GeometryBody>& bodies,
@@ -42,24 +43,28 @@ std::vector<std::string> names_of(const std::vector<GeometryBody>& bodies) {
 class GeometryWriter::Impl {
 public:
     Impl(const std::filesystem::path& path, std::span<const Triangle> triangles,
-         std::size_t vertex_count, const std::vector<GeometryBody>& bodies, std::size_t step_count)
-        : path_(path.string()), value_count_(3 * vertex_count) {
+         std::size_t vertex_count, const std::vector<GeometryBody>& bodies, std::size_t step_count,
+         Compression compression)
+        : path_(path.string()), value_count_(3 * vertex_count), codec_(compression) {
         const auto numbers = body_of_each_triangle(bodies, triangles.size());
         guarded([&] {
-            file_.emplace(path_, triangles, vertex_count, numbers, names_of(bodies), step_count);
+            file_.emplace(path_, triangles, vertex_count, numbers, names_of(bodies), step_count,
+                          compression);
         });
         xdmf_.emplace(xdmf_path(path), path.filename().string(), triangles.size(), vertex_count);
         background_.emplace([this](Step& step) { write(step); });
     }
 
-    void append(double time, std::span<const float> positions) {
-        if (positions.size() != value_count_) {
-            throw std::invalid_argument("positions do not fit the geometry's vertices");
-        }
+    void append(double time, std::vector<float> positions) {
+        check(positions);
+        append(time, [values = std::move(positions)]() mutable { return std::move(values); });
+    }
+
+    void append(double time, std::function<std::vector<float>()> positions) {
         if (appended_++ == file_->step_limit()) {
             throw std::invalid_argument("more steps than the geometry was made for");
         }
-        background_->push({time, {positions.begin(), positions.end()}});
+        background_->push({time, std::move(positions)});
     }
 
     void finish() {
@@ -69,8 +74,17 @@ public:
     }
 
 private:
+    void check(const std::vector<float>& positions) const {
+        if (positions.size() == value_count_) return;
+        throw std::invalid_argument("positions do not fit the geometry's vertices");
+    }
+
+    /// What takes long, encoding, is done while others may use the library.
     void write(const Step& step) {
-        guarded([&] { file_->append(step.time, step.positions); });
+        const std::vector<float> positions = step.positions();
+        check(positions);
+        const auto encoded = codec_.encode(positions);
+        guarded([&] { file_->append(step.time, encoded); });
         xdmf_->append(step.time, VtkhdfFile::step_dataset(file_->steps() - 1));
     }
 
@@ -87,6 +101,7 @@ private:
 
     const std::string path_;
     const std::size_t value_count_;
+    ChunkCodec codec_;
     std::size_t appended_ = 0;
     std::optional<VtkhdfFile> file_;
     std::optional<XdmfFile> xdmf_;
@@ -95,13 +110,19 @@ private:
 
 GeometryWriter::GeometryWriter(const std::filesystem::path& path,
                                std::span<const Triangle> triangles, std::size_t vertex_count,
-                               const std::vector<GeometryBody>& bodies, std::size_t step_count)
-    : impl_(std::make_unique<Impl>(path, triangles, vertex_count, bodies, step_count)) {}
+                               const std::vector<GeometryBody>& bodies, std::size_t step_count,
+                               Compression compression)
+    : impl_(
+          std::make_unique<Impl>(path, triangles, vertex_count, bodies, step_count, compression)) {}
 
 GeometryWriter::~GeometryWriter() = default;
 
-void GeometryWriter::append(double time, std::span<const float> positions) {
-    impl_->append(time, positions);
+void GeometryWriter::append(double time, std::vector<float> positions) {
+    impl_->append(time, std::move(positions));
+}
+
+void GeometryWriter::append(double time, std::function<std::vector<float>()> positions) {
+    impl_->append(time, std::move(positions));
 }
 
 void GeometryWriter::finish() { impl_->finish(); }

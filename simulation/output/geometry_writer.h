@@ -3,10 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "runtime/io/compression.h"
 
 namespace weft {
 
@@ -35,7 +38,7 @@ public:
     ///             advance, so that no kill -9 finds the file's structure half-changed.
     GeometryWriter(const std::filesystem::path& path, std::span<const Triangle> triangles,
                    std::size_t vertex_count, const std::vector<GeometryBody>& bodies,
-                   std::size_t step_count);
+                   std::size_t step_count, Compression compression = Compression::kFast);
 
     /// Writes out what was appended.
     ~GeometryWriter();
@@ -45,8 +48,10 @@ public:
 
     /// Waits only if the step before is not yet written.
     /// time       simulated [s], rising
-    /// positions  [3 * vertex_count] x y z of each vertex [m]; copied
-    void append(double time, std::span<const float> positions);
+    /// positions  [3 * vertex_count] x y z of each vertex [m]
+    void append(double time, std::vector<float> positions);
+    /// positions: called on the background thread.
+    void append(double time, std::function<std::vector<float>()> positions);
 
     /// Waits until everything is written, and closes the files.
     void finish();

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "simulation/word_hash.h"
+#include "runtime/io/word_hash.h"
 
 namespace weft {
 

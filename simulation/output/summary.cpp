@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "runtime/error.h"
+#include "runtime/io/whole_file.h"
 
 namespace weft {
 
@@ -54,6 +52,33 @@ std::string devices_text(const RunSummary& summary) {
     return text;
 }
 
+nlohmann::ordered_json pairs_json(const TextPairs& pairs) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [key, value] : pairs) json[key] = value;
+    return json;
+}
+
+nlohmann::ordered_json parts_json(const RunSummary& summary) {
+    nlohmann::ordered_json json;
+    for (std::size_t p = 0; p < summary.parts.size(); ++p)
+        json[kFrameParts[p].name] = 1e3 * summary.parts[p];
+    return json;
+}
+
+std::string parts_text(const RunSummary& summary) {
+    std::string text;
+    for (std::size_t p = 0; p < summary.parts.size(); ++p) {
+        text += fmt::format("{}{} {:.3f}", text.empty() ? "" : ", ", kFrameParts[p].name,
+                            1e3 * summary.parts[p]);
+    }
+    return text + " ms";
+}
+
+double plan_time(const RunSummary& summary) {
+    const auto* part = std::ranges::find(kFrameParts, &FrameRecord::plan_time, &FramePart::time);
+    return summary.parts[static_cast<std::size_t>(part - kFrameParts)];
+}
+
 std::string energies_text(const RunSummary& summary) {
     std::string text;
     for (auto it = summary.energies.rbegin(); it != summary.energies.rend(); ++it) {
@@ -64,31 +89,34 @@ std::string energies_text(const RunSummary& summary) {
 
 }  // namespace
 
-SummaryBuilder::SummaryBuilder(const RunDescription& run) : energy_names_(run.energies) {
+SummaryBuilder::SummaryBuilder(const RunDescription& run)
+    : energy_names_(run.energies), device_count_(run.devices.size()) {
     summary_.scene = run.scene_name;
+    summary_.command = run.command;
+    summary_.settings = run.settings;
+    summary_.host = run.host;
+    summary_.versions = run.versions;
     for (const DeviceDescription& device : run.devices) {
         summary_.devices.push_back({device.name, device.kind, device.units, 0.0, 0.0});
     }
 }
 
 void SummaryBuilder::add(const FrameRecord& frame) {
-    if (summary_.frames == 0) first_start_ = frame.start;
-    ++summary_.frames;
+    Frame& kept = frames_.emplace_back(Frame{frame.start,
+                                             frame.end,
+                                             frame.planned_makespan,
+                                             frame.measured_makespan,
+                                             frame.lower_bound,
+                                             {}});
+    std::ranges::transform(kFrameParts, kept.parts.begin(),
+                           [&](const FramePart& part) { return frame.*part.time; });
     summary_.simulated_time = frame.sim_time;
-    summary_.wall_time = frame.end - first_start_;
     summary_.transferred_bytes += frame.transferred_bytes;
-    all_makespans_ += frame.measured_makespan;
-    for (std::size_t i = 0; i < summary_.devices.size(); ++i) {
-        summary_.devices[i].busy += frame.busy.at(i);
-    }
-    frame_times_.push_back(frame.end - frame.start);
-    planned_.push_back(frame.planned_makespan);
-    measured_.push_back(frame.measured_makespan);
-    errors_.push_back(
-        ratio(std::abs(frame.measured_makespan - frame.planned_makespan), frame.planned_makespan));
-    bounds_.push_back(frame.lower_bound);
-    plan_times_.push_back(frame.plan_time);
+    for (std::size_t i = 0; i < device_count_; ++i) summary_.devices[i].busy += frame.busy.at(i);
+    if (frame.energies.size() == energy_names_.size()) set_energies(frame);
+}
 
+void SummaryBuilder::set_energies(const FrameRecord& frame) {
     double total = frame.kinetic_energy + frame.gravity_energy;
     summary_.energies = {{"kinetic", frame.kinetic_energy}, {"gravity", frame.gravity_energy}};
     for (std::size_t i = 0; i < energy_names_.size(); ++i) {
@@ -100,18 +128,74 @@ void SummaryBuilder::add(const FrameRecord& frame) {
 
 RunSummary SummaryBuilder::summary() const {
     RunSummary result = summary_;
-    result.frame_median = median(frame_times_);
-    result.frame_p95 = quantile(frame_times_, 0.95);
-    result.planned_makespan = median(planned_);
-    result.measured_makespan = median(measured_);
-    result.plan_error = median(errors_);
-    result.lower_bound = median(bounds_);
-    result.plan_time = median(plan_times_);
+    result.frames = frames_.size();
+    if (frames_.empty()) return result;
+    const auto all = [&](auto value) {
+        std::vector<double> values;
+        for (const Frame& frame : frames_) values.push_back(value(frame));
+        return values;
+    };
+    const std::vector<double> times = all([](const Frame& f) { return f.end - f.start; });
+    const std::vector<double> measured = all([](const Frame& f) { return f.measured; });
+    result.wall_time = frames_.back().end - frames_.front().start;
+    result.frame_median = median(times);
+    result.frame_p95 = quantile(times, 0.95);
+    result.planned_makespan = median(all([](const Frame& f) { return f.planned; }));
+    result.measured_makespan = median(measured);
+    result.plan_error = median(
+        all([](const Frame& f) { return ratio(std::abs(f.measured - f.planned), f.planned); }));
+    result.lower_bound = median(all([](const Frame& f) { return f.lower_bound; }));
+    for (std::size_t p = 0; p < result.parts.size(); ++p)
+        result.parts[p] = median(all([p](const Frame& f) { return f.parts[p]; }));
+    const double makespans = std::accumulate(measured.begin(), measured.end(), 0.0);
     for (RunSummary::Device& device : result.devices) {
-        device.utilisation = ratio(device.busy, all_makespans_);
+        device.utilisation = ratio(device.busy, makespans);
         result.utilisation += device.utilisation / static_cast<double>(result.devices.size());
     }
     return result;
+}
+
+std::vector<std::uint8_t> SummaryBuilder::save() const {
+    nlohmann::json devices = nlohmann::json::array();
+    for (const RunSummary::Device& d : summary_.devices)
+        devices.push_back({d.name, d.kind, d.units, d.busy});
+    nlohmann::json frames = nlohmann::json::array();
+    for (const Frame& f : frames_)
+        frames.push_back({f.start, f.end, f.planned, f.measured, f.lower_bound, f.parts});
+    return nlohmann::json::to_cbor({{"simulated_time", summary_.simulated_time},
+                                    {"transferred_bytes", summary_.transferred_bytes},
+                                    {"energies", summary_.energies},
+                                    {"devices", std::move(devices)},
+                                    {"frames", std::move(frames)}});
+}
+
+void SummaryBuilder::restore(std::span<const std::uint8_t> saved) {
+    try {
+        const auto json = nlohmann::json::from_cbor(saved.begin(), saved.end());
+        json.at("simulated_time").get_to(summary_.simulated_time);
+        json.at("transferred_bytes").get_to(summary_.transferred_bytes);
+        json.at("energies").get_to(summary_.energies);
+        for (const auto& d : json.at("devices"))
+            restore_device({d.at(0), d.at(1), d.at(2), d.at(3), 0.0});
+        for (const auto& f : json.at("frames")) {
+            frames_.push_back({f.at(0), f.at(1), f.at(2), f.at(3), f.at(4), {}});
+            f.at(5).get_to(frames_.back().parts);
+        }
+    } catch (const nlohmann::json::exception&) {
+        throw UserError("the checkpoint's report cannot be read; --force starts the run anew");
+    }
+}
+
+void SummaryBuilder::restore_device(const RunSummary::Device& device) {
+    const auto now = std::span(summary_.devices).first(device_count_);
+    const auto same = std::ranges::find_if(now, [&](const RunSummary::Device& d) {
+        return d.name == device.name && d.kind == device.kind && d.units == device.units &&
+               d.busy == 0.0;
+    });
+    if (same != now.end())
+        same->busy = device.busy;
+    else if (device.busy > 0.0)
+        summary_.devices.push_back(device);
 }
 
 nlohmann::ordered_json to_json(const RunSummary& summary) {
@@ -136,19 +220,25 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["wall_s"] = summary.wall_time;
     json["ms_per_frame"] = 1e3 * summary.frame_median;
     json["ms_p95"] = 1e3 * summary.frame_p95;
+    json["parts_ms"] = parts_json(summary);
     json["devices"] = devices;
+    json["warnings"] = summary.warnings;
     if (!summary.losses.empty()) json["lost_devices"] = summary.losses;
     json["utilisation"] = summary.utilisation;
     json["planned_ms"] = 1e3 * summary.planned_makespan;
     json["measured_ms"] = 1e3 * summary.measured_makespan;
     json["plan_error"] = summary.plan_error;
     json["lower_bound_ms"] = 1e3 * summary.lower_bound;
-    json["plan_us"] = 1e6 * summary.plan_time;
+    json["plan_us"] = 1e6 * plan_time(summary);
     json["transferred_bytes"] = summary.transferred_bytes;
     json["energy"] = summary.energies.empty() ? 0.0 : summary.energies.back().second;
     json["energies"] = energies;
     json["state_hash"] = summary.state_hash;
     json["files"] = files;
+    json["command"] = summary.command;
+    json["settings"] = pairs_json(summary.settings);
+    json["host"] = pairs_json(summary.host);
+    json["versions"] = pairs_json(summary.versions);
     return json;
 }
 
@@ -163,7 +253,9 @@ std::string to_text(const RunSummary& summary) {
     line(text, "time per frame",
          fmt::format("median {:.3f} ms, p95 {:.3f} ms", 1e3 * summary.frame_median,
                      1e3 * summary.frame_p95));
+    line(text, "of which", parts_text(summary));
     text += devices_text(summary);
+    for (const std::string& warning : summary.warnings) line(text, "warning", warning);
     for (const std::string& loss : summary.losses) line(text, "lost", loss);
     line(text, "utilisation", fmt::format("{:.1f} %", 100.0 * summary.utilisation));
     line(text, "makespan",
@@ -171,7 +263,7 @@ std::string to_text(const RunSummary& summary) {
                      "{:.3f} ms",
                      1e3 * summary.planned_makespan, 1e3 * summary.measured_makespan,
                      100.0 * summary.plan_error, 1e3 * summary.lower_bound));
-    line(text, "planner", fmt::format("{:.1f} us per frame", 1e6 * summary.plan_time));
+    line(text, "planner", fmt::format("{:.1f} us per frame", 1e6 * plan_time(summary)));
     line(text, "transfers", bytes_text(summary.transferred_bytes));
     line(text, "energy", energies_text(summary));
     line(text, "state hash", summary.state_hash.empty() ? "not known" : summary.state_hash);
@@ -180,19 +272,7 @@ std::string to_text(const RunSummary& summary) {
 }
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
-    // Beside it first, then renamed: nobody finds half of it.
-    std::filesystem::path part = path;
-    part += ".part";
-    errno = 0;
-    {
-        std::ofstream stream(part, std::ios::binary);
-        stream << to_json(summary).dump(2) << '\n' << std::flush;
-        if (stream && !std::rename(part.c_str(), path.c_str())) return;
-    }
-    const std::string reason = errno != 0 ? std::strerror(errno) : "write failed";
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw RunError(path.string() + ": cannot write the summary: " + reason);
+    write_whole_file(path, to_json(summary).dump(2) + '\n', " the summary");
 }
 
 }  // namespace weft

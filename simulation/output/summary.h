@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,20 +25,23 @@ struct RunSummary {
     };
 
     std::string scene;
+    std::string command;
+    TextPairs settings, host, versions;  ///< as in RunDescription
     std::size_t frames = 0;
-    double simulated_time = 0.0;     ///< [s]
-    double wall_time = 0.0;          ///< from the first frame's start to the last one's end [s]
-    double frame_median = 0.0;       ///< time per frame, all included [s]
-    double frame_p95 = 0.0;          ///< [s]
-    double planned_makespan = 0.0;   ///< median over frames [s]
-    double measured_makespan = 0.0;  ///< median over frames [s]
-    double plan_error = 0.0;         ///< median |measured - planned| / planned
-    double lower_bound = 0.0;        ///< median over frames [s]
-    double plan_time = 0.0;          ///< median over frames [s]
-    std::uint64_t transferred_bytes = 0;  ///< all frames
-    double utilisation = 0.0;             ///< mean over devices
+    double simulated_time = 0.0;  ///< [s]
+    double wall_time = 0.0;       ///< from the first frame's start to the last one's end [s]
+    double frame_median = 0.0;    ///< from one frame's begin to the next one's, all included [s]
+    double frame_p95 = 0.0;       ///< [s]
+    std::array<double, std::size(kFrameParts)> parts{};  ///< medians [s]
+    double planned_makespan = 0.0;                       ///< median over frames [s]
+    double measured_makespan = 0.0;                      ///< median over frames [s]
+    double plan_error = 0.0;                             ///< median |measured - planned| / planned
+    double lower_bound = 0.0;                            ///< median over frames [s]
+    std::uint64_t transferred_bytes = 0;                 ///< all frames
+    double utilisation = 0.0;                            ///< mean over devices
     std::vector<Device> devices;
     std::vector<std::pair<std::string, double>> energies;  ///< at the end [J]; the last is "total"
+    std::vector<std::string> warnings;                     ///< what to doubt in the results
     std::vector<std::string> losses;  ///< devices that failed in mid-run, and why
     bool finished = false;            ///< all frames of the scene are done
     std::string state_hash;           ///< after the last frame; empty: not known
@@ -48,21 +54,32 @@ public:
     explicit SummaryBuilder(const RunDescription& run);
 
     void add(const FrameRecord& frame);
+    /// The energies at the end, where not every frame's record has them.
+    void set_energies(const FrameRecord& frame);
 
     /// The summary so far; state_hash and files are the caller's to fill.
     RunSummary summary() const;
 
+    /// When the last frame ended [s].
+    double end() const { return frames_.empty() ? 0.0 : frames_.back().end; }
+    /// All that was gathered, for a checkpoint.
+    std::vector<std::uint8_t> save() const;
+    /// Goes on from there; before the first add(). Devices that the run has no more keep their rows
+    /// behind those that it has. Throws UserError if it was not made by save().
+    void restore(std::span<const std::uint8_t> saved);
+
 private:
+    struct Frame {
+        double start, end;
+        double planned, measured, lower_bound;  ///< makespans
+        std::array<double, std::size(kFrameParts)> parts;
+    };
+    void restore_device(const RunSummary::Device& device);
+
     RunSummary summary_;
     std::vector<std::string> energy_names_;
-    double first_start_ = 0.0;
-    double all_makespans_ = 0.0;
-    std::vector<double> frame_times_;
-    std::vector<double> planned_;
-    std::vector<double> measured_;
-    std::vector<double> errors_;
-    std::vector<double> bounds_;
-    std::vector<double> plan_times_;
+    std::size_t device_count_;  ///< that take part now: the first rows
+    std::vector<Frame> frames_;
 };
 
 nlohmann::ordered_json to_json(const RunSummary& summary);

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "simulation/output/chunk_codec.h"
+
 namespace weft {
 
 namespace {
 
 using hdf5::Handle;
 using Triangle = VtkhdfFile::Triangle;
-
-constexpr unsigned kDeflate = 1;  // higher levels cost far more time and save little
 
 /// Up to here the chunks' index is one node, which changes in one write. 40 bytes per step.
 constexpr std::size_t kStepsPerNode = 1024;
@@ -56,7 +56,8 @@ void write_cells(hid_t root, const std::string& name, std::span<const Triangle> 
 
 VtkhdfFile::VtkhdfFile(const std::string& path, std::span<const Triangle> triangles,
                        std::size_t vertex_count, std::span<const std::int32_t> bodies,
-                       const std::vector<std::string>& body_names, std::size_t step_limit)
+                       const std::vector<std::string>& body_names, std::size_t step_limit,
+                       Compression compression)
     : vertex_count_(vertex_count),
       step_limit_(step_limit),
       file_(hdf5::create_file(path, hdf5::FileFormat::kPlain,
@@ -66,7 +67,7 @@ VtkhdfFile::VtkhdfFile(const std::string& path, std::span<const Triangle> triang
     hdf5::write_int_attribute(root_.id(), "Version", version);
     write_fixed_text(root_.id(), "Type", "PolyData");
     create_topology(triangles, bodies);
-    create_points();
+    create_points(compression);
     create_steps();
     create_views(body_names);
     flush();
@@ -85,16 +86,18 @@ void VtkhdfFile::create_topology(std::span<const Triangle> triangles,
 }
 
 /// A chunk is one step's positions, so that a step is compressed once and read alone.
-void VtkhdfFile::create_points() {
+void VtkhdfFile::create_points(Compression compression) {
     constexpr const char* kWhat = "create dataset 'Points'";
     const hsize_t shape[] = {step_limit_ * vertex_count_, 3};
     const hsize_t chunk[] = {vertex_count_, 3};
     const Handle space(H5Screate_simple(2, shape, nullptr), H5Sclose, kWhat);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, kWhat);
     hdf5::check(H5Pset_chunk(creation.id(), 2, chunk), kWhat);
-    hdf5::check(H5Pset_shuffle(creation.id()), kWhat);  // equal bytes side by side compress better
-    hdf5::check(H5Pset_deflate(creation.id(), kDeflate), kWhat);
-    points_ = Handle(H5Dcreate2(root_.id(), "Points", H5T_NATIVE_FLOAT, space.id(), H5P_DEFAULT,
+    if (const int level = deflate_level(compression); level > 0) {
+        hdf5::check(H5Pset_shuffle(creation.id()), kWhat);
+        hdf5::check(H5Pset_deflate(creation.id(), static_cast<unsigned>(level)), kWhat);
+    }
+    points_ = Handle(H5Dcreate2(root_.id(), "Points", H5T_IEEE_F32LE, space.id(), H5P_DEFAULT,
                                 creation.id(), H5P_DEFAULT),
                      H5Dclose, kWhat);
 }
@@ -147,17 +150,12 @@ void VtkhdfFile::create_views(const std::vector<std::string>& body_names) {
     }
 }
 
-void VtkhdfFile::append(double time, std::span<const float> positions) {
+/// Past the library's own filters: they have been applied already.
+void VtkhdfFile::append(double time, std::span<const std::byte> positions) {
     constexpr const char* kWhat = "write positions";
     const hsize_t start[] = {steps_ * vertex_count_, 0};
-    const hsize_t block[] = {vertex_count_, 3};
-    const Handle file_space(H5Dget_space(points_.id()), H5Sclose, kWhat);
-    hdf5::check(
-        H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start, nullptr, block, nullptr),
-        kWhat);
-    const Handle memory_space(H5Screate_simple(2, block, nullptr), H5Sclose, kWhat);
-    hdf5::check(H5Dwrite(points_.id(), H5T_NATIVE_FLOAT, memory_space.id(), file_space.id(),
-                         H5P_DEFAULT, positions.data()),
+    hdf5::check(H5Dwrite_chunk(points_.id(), H5P_DEFAULT, /*filters=*/0, start, positions.size(),
+                               positions.data()),
                 kWhat);
     hdf5::check(H5Dflush(points_.id()), kWhat);
     flush();

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/compression.h"
+#include "runtime/io/hdf5.h"
 
 namespace weft {
 
@@ -26,11 +27,12 @@ public:
     /// bodies  [triangles] number of the body that each triangle belongs to
     VtkhdfFile(const std::string& path, std::span<const Triangle> triangles,
                std::size_t vertex_count, std::span<const std::int32_t> bodies,
-               const std::vector<std::string>& body_names, std::size_t step_limit);
+               const std::vector<std::string>& body_names, std::size_t step_limit,
+               Compression compression);
 
     /// Adds a step and hands it to the operating system. At most step_limit times.
-    /// positions  [3 * vertex_count]
-    void append(double time, std::span<const float> positions);
+    /// positions  [3 * vertex_count], as ChunkCodec encodes them
+    void append(double time, std::span<const std::byte> positions);
     void close();
     /// After an Error: leaves the file as of the last flush.
     void abandon();
@@ -43,7 +45,7 @@ public:
 
 private:
     void create_topology(std::span<const Triangle> triangles, std::span<const std::int32_t> bodies);
-    void create_points();
+    void create_points(Compression compression);
     void create_steps();
     void create_views(const std::vector<std::string>& body_names);
     void raise_step_count(double time);

@@ -1,5 +1,7 @@
 #include "simulation/planning/plan_log.h"
 
+#include <algorithm>
+
 namespace weft {
 
 namespace {
@@ -95,11 +97,15 @@ std::shared_ptr<const GraphRecord> PlanLog::graph_of(const FramePlan& plan,
     for (std::size_t d = 0; d < numbers.size(); ++d) {
         division.strips[static_cast<std::size_t>(numbers[d])] = plan.division.strips[d];
     }
+    const std::size_t dependencies = plan.step->dependencies().size() + plan.step->carried().size();
+    for (const auto& known : graphs_) {
+        if (std::ranges::equal(known->strips, division.strips) &&
+            known->dependencies.size() == dependencies) {
+            return known;
+        }
+    }
     GraphRecord own = graph_record(*plan.step, division);
     own.graph = static_cast<std::uint32_t>(graphs_.size());
-    for (const auto& known : graphs_) {
-        if (known->strips == own.strips && known->dependencies == own.dependencies) return known;
-    }
     return graphs_.emplace_back(std::make_shared<const GraphRecord>(std::move(own)));
 }
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/sources.h"
-#include "runtime/cache_folder.h"
+#include "runtime/io/cache_folder.h"
 
 namespace weft {
 
@@ -101,6 +101,7 @@ bool SavedCosts::restore(std::span<const TaskBody* const> bodies,
 
 void SavedCosts::save(std::span<const TaskBody* const> bodies, const std::vector<Device*>& devices,
                       bool strict, const TimingModel& timing) {
+    const CacheLock lock(path_);
     read();
     for (std::size_t d = 0; d < devices.size(); ++d) {
         for_each_kind(bodies, [&](std::uint32_t kind, const TaskBody& body) {

@@ -1,4 +1,4 @@
-#include "simulation/reference/in_double.h"
+#include "simulation/families/in_double.h"
 // The language layer in double precision has to come before all else. Where obstacles are is single
 // precision for all solvers, and here.
 #pragma GCC diagnostic push
@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "runtime/error.h"
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 
 namespace weft {
 
@@ -53,7 +53,6 @@ FineRun::FineRun(const Model& model, int substeps)
     : model_(model),
       substeps_(substeps),
       h_(model.scene.dt / substeps),
-      elements_(make_element_energies(model)),
       forces_(static_cast<std::size_t>(model.vertex_count())) {
     if (model.obstacles) obstacles_ = std::make_unique<Obstacles>(model.scene.obstacles, 1);
     for (std::size_t v = 0; v < forces_.size(); ++v) {
@@ -75,7 +74,7 @@ int FineRun::stable_substeps(const Model& model) {
     for (std::size_t v = 0; v < count; ++v) x.push_back(to_vec3((*model.positions)[v]));
     // Gershgorin: no frequency is above the largest sum of a row of M^-1 H.
     std::vector<double> rows(count);
-    for (const auto& family : make_element_energies(model)) {
+    for (const auto& family : model.families) {
         for (int e = 0; e < family->count(); ++e) {
             const auto vertices = family->corners(e);
             std::array<Mat3, kMaxCorners * kMaxCorners> blocks;
@@ -111,7 +110,8 @@ void FineRun::advance() {
 
 void FineRun::step(double time) {
     const Vec3 gravity = model_.scene.gravity_at(time + 0.5 * h_);
-    if (obstacles_) obstacles_->place(time, h_);
+    if (obstacles_) obstacles_->place(time, h_, 0.0);
+    for (const auto& family : model_.families) family->place(time, h_);
     if (model_.moving_pins) model_.moving_pins->place_at(time + h_, held_);
     add_forces();
     for (std::size_t v = 0; v < x_.size(); ++v) {
@@ -129,7 +129,7 @@ void FineRun::step(double time) {
 
 void FineRun::add_forces() {
     std::fill(forces_.begin(), forces_.end(), Vec3{});
-    for (const auto& family : elements_) {
+    for (const auto& family : model_.families) {
         for (int e = 0; e < family->count(); ++e) {
             const auto vertices = family->corners(e);
             std::array<Vec3, kMaxCorners> gradient;
@@ -164,15 +164,6 @@ void FineRun::push_out_of_obstacles(std::size_t vertex, Vec3 previous) {
     velocities_[vertex] = (1.0 / h_) * (x_[vertex] - previous);
 }
 
-std::vector<float> FineRun::positions() const {
-    std::vector<float> positions(3 * x_.size());
-    for (std::size_t v = 0; v < x_.size(); ++v) {
-        const std::size_t to = 3 * static_cast<std::size_t>(model_.strips.order[v]);
-        positions[to] = static_cast<float>(x_[v].x);
-        positions[to + 1] = static_cast<float>(x_[v].y);
-        positions[to + 2] = static_cast<float>(x_[v].z);
-    }
-    return positions;
-}
+std::vector<float> FineRun::positions() const { return model_.in_scene_order(x_); }
 
 }  // namespace weft

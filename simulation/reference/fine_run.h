@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "simulation/model/model.h"
-#include "simulation/reference/element_energies.h"
 
 namespace weft {
 
@@ -36,7 +35,6 @@ private:
     const int substeps_;
     const double h_;  ///< [s]
     int frame_ = 0;
-    std::vector<std::unique_ptr<ElementEnergies>> elements_;
     std::unique_ptr<Obstacles> obstacles_;  ///< null: none
     // [vertices] new order.
     std::vector<Vec3> x_, velocities_, forces_, held_;

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 
 namespace weft {
 
@@ -12,7 +12,7 @@ namespace {
 using Corners = std::array<Vec3, kMaxCorners>;
 using Blocks = std::array<Mat3, kMaxCorners * kMaxCorners>;
 
-Corners corners_of(const ElementEnergies& family, int element, std::span<const Vec3> x) {
+Corners corners_of(const ElementFamily& family, int element, std::span<const Vec3> x) {
     Corners corners;
     const auto vertices = family.corners(element);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
@@ -52,7 +52,7 @@ void project(Blocks& blocks, std::size_t corners, double part) {
 }  // namespace
 
 IncrementalPotential::IncrementalPotential(const Model& model, double time)
-    : elements_(make_element_energies(model)) {
+    : families_(model.families) {
     const double h = model.h;
     const Vec3 gravity = model.scene.gravity_at(time + 0.5 * h);
     const auto count = static_cast<std::size_t>(model.vertex_count());
@@ -66,6 +66,7 @@ IncrementalPotential::IncrementalPotential(const Model& model, double time)
         predicted_[v] = predicted_[v] + h * (to_vec3((*model.velocities)[v]) + h * gravity);
     }
     if (model.moving_pins) model.moving_pins->place_at(time + h, predicted_);
+    for (const auto& family : families_) family->place(time, h);
     make_pattern();
 }
 
@@ -73,12 +74,12 @@ void IncrementalPotential::make_pattern() {
     std::vector<char> free(predicted_.size());
     for (std::size_t v = 0; v < free.size(); ++v) free[v] = is_free(static_cast<int>(v));
     std::vector<BlockMatrix::Group> groups;
-    for (const auto& family : elements_) {
+    for (const auto& family : families_) {
         for (int e = 0; e < family->count(); ++e) groups.push_back({family->corners(e)});
     }
     hessian_ = BlockMatrix(free, groups);
 
-    for (const auto& family : elements_) {
+    for (const auto& family : families_) {
         std::vector<int>& slots = slots_.emplace_back();
         for (int e = 0; e < family->count(); ++e) {
             const auto vertices = family->corners(e);
@@ -98,7 +99,7 @@ double IncrementalPotential::energy(std::span<const Vec3> x) const {
         const Vec3 off = x[v] - predicted_[v];
         sum += 0.5 * inertia_[v] * dot(off, off);
     }
-    for (const auto& family : elements_) {
+    for (const auto& family : families_) {
         for (int e = 0; e < family->count(); ++e) {
             sum += family->energy(e, corners_of(*family, e, x).data());
         }
@@ -108,7 +109,7 @@ double IncrementalPotential::energy(std::span<const Vec3> x) const {
 
 std::vector<Vec3> IncrementalPotential::gradient(std::span<const Vec3> x) const {
     std::vector<Vec3> sum(predicted_.size());
-    for (const auto& family : elements_) {
+    for (const auto& family : families_) {
         for (int e = 0; e < family->count(); ++e) {
             Corners forces;
             family->gradient(e, corners_of(*family, e, x).data(), forces.data());
@@ -131,7 +132,7 @@ double IncrementalPotential::force_size(std::span<const Vec3> x) const {
     for (std::size_t v = 0; v < predicted_.size(); ++v) {
         size += inertia_[v] * length(x[v] - predicted_[v]);
     }
-    for (const auto& family : elements_) {
+    for (const auto& family : families_) {
         for (int e = 0; e < family->count(); ++e) {
             Corners forces;
             family->gradient(e, corners_of(*family, e, x).data(), forces.data());
@@ -149,8 +150,8 @@ const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double
     for (std::size_t v = 0; v < predicted_.size(); ++v) {
         if (diagonal_[v] >= 0) hessian_.add(diagonal_[v], inertia_[v] * Mat3{});
     }
-    for (std::size_t f = 0; f < elements_.size(); ++f) {
-        const ElementEnergies& family = *elements_[f];
+    for (std::size_t f = 0; f < families_.size(); ++f) {
+        const ElementFamily& family = *families_[f];
         auto slot = slots_[f].begin();
         for (int e = 0; e < family.count(); ++e) {
             Blocks blocks;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "simulation/model/model.h"
 #include "simulation/reference/block_matrix.h"
-#include "simulation/reference/element_energies.h"
 
 namespace weft {
 
@@ -30,7 +30,7 @@ public:
     bool is_free(int vertex) const { return inertia_[static_cast<std::size_t>(vertex)] > 0.0; }
     /// m / h^2 [N/m], 0 for held vertices.
     const std::vector<double>& inertia() const { return inertia_; }
-    const std::vector<std::unique_ptr<ElementEnergies>>& elements() const { return elements_; }
+    const std::vector<std::unique_ptr<ElementFamily>>& families() const { return families_; }
 
     /// [J]
     double energy(std::span<const Vec3> x) const;
@@ -48,7 +48,7 @@ public:
 private:
     void make_pattern();
 
-    std::vector<std::unique_ptr<ElementEnergies>> elements_;
+    const std::vector<std::unique_ptr<ElementFamily>>& families_;  ///< the model's
     std::vector<Vec3> predicted_;
     std::vector<double> inertia_;
     BlockMatrix hessian_;

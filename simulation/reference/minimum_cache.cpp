@@ -3,7 +3,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "runtime/cache_folder.h"
+#include "runtime/io/cache_folder.h"
 
 namespace weft {
 
@@ -26,7 +26,7 @@ std::string problem_bytes(const IncrementalPotential& potential) {
     append(bytes, std::vector<double>{kVersion});
     append(bytes, potential.predicted());
     append(bytes, potential.inertia());
-    for (const auto& family : potential.elements()) {
+    for (const auto& family : potential.families()) {
         for (int e = 0; e < family->count(); ++e) {
             const auto corners = family->corners(e);
             append(bytes, std::vector<int>(corners.begin(), corners.end()));

@@ -1,5 +1,8 @@
 #include "simulation/scene/body_keys.h"
 
+#include <algorithm>
+
+#include "simulation/scene/elements/element_keys.h"
 #include "simulation/scene/limits.h"
 #include "simulation/scene/node_values.h"
 
@@ -124,59 +127,6 @@ const TableKeys& block_table() {
     return table;
 }
 
-const TableKeys& stretch_table() {
-    static const TableKeys table{{
-        {.name = "stiffness",
-         .help = "of the spring along each edge",
-         .unit = "N/m",
-         .required = true,
-         .range = positive()},
-    }};
-    return table;
-}
-
-const Key& young_key() {
-    static const Key key{.name = "young",
-                         .help = "Young's modulus",
-                         .unit = "Pa",
-                         .required = true,
-                         .range = positive_up_to(1e15)};
-    return key;
-}
-
-const Key& poisson_key() {
-    static const Key key{
-        .name = "poisson",
-        .help = "Poisson's ratio: 0.5 would be incompressible",
-        .required = true,
-        .range = {.low = -1.0, .high = 0.5, .low_excluded = true, .high_excluded = true}};
-    return key;
-}
-
-const TableKeys& membrane_table() {
-    static const TableKeys table{{
-        young_key(),
-        poisson_key(),
-        {.name = "thickness",
-         .help = "of the sheet",
-         .unit = "m",
-         .required = true,
-         .range = positive_up_to(1.0)},
-    }};
-    return table;
-}
-
-const TableKeys& bend_table() {
-    static const TableKeys table{{
-        {.name = "stiffness",
-         .help = "quadratic bending stiffness; 0: no bending",
-         .unit = "J",
-         .required = true,
-         .range = at_least(0.0)},
-    }};
-    return table;
-}
-
 // Which vertices: corners where there are some, indices, boxes.
 Key corners_key(std::vector<std::string> choices, std::string help) {
     return {.name = "corners",
@@ -184,6 +134,15 @@ Key corners_key(std::vector<std::string> choices, std::string help) {
             .forms = {{kAny}},
             .help = std::move(help),
             .choices = std::move(choices)};
+}
+
+const Key& edges_key() {
+    static const Key key{.name = "edges",
+                         .type = Type::kText,
+                         .forms = {{kAny}},
+                         .help = "edges of a cloth's grid",
+                         .choices = {"x-", "x+", "z-", "z+"}};
+    return key;
 }
 
 const Key& rims_key() {
@@ -213,6 +172,14 @@ const Key& vertices_key() {
     return key;
 }
 
+const Key& parts_key() {
+    static const Key key{.name = "parts",
+                         .type = Type::kText,
+                         .forms = {{kAny}},
+                         .help = "named objects and groups of a cloth's OBJ file"};
+    return key;
+}
+
 const Key& box_key() {
     static const Key key{
         .name = "box",
@@ -229,8 +196,9 @@ Key pins_motion_key() {
 }
 
 const TableKeys& cloth_pins_table() {
-    static const TableKeys table{{corners_key(kGridCorners, "corners of a grid"), rims_key(),
-                                  vertices_key(), box_key(), pins_motion_key()}};
+    static const TableKeys table{{corners_key(kGridCorners, "corners of a grid"), edges_key(),
+                                  rims_key(), parts_key(), vertices_key(), box_key(),
+                                  pins_motion_key()}};
     return table;
 }
 
@@ -274,15 +242,8 @@ const Key& damping_key() {
     return key;
 }
 
-}  // namespace
-
-Key motion_key(std::string help) {
+TableKeys cloth_keys() {
     return {
-        .name = "motion", .type = Type::kTable, .help = std::move(help), .table = &motion_table()};
-}
-
-const TableKeys& cloth_table() {
-    static const TableKeys table{
         .keys =
             {
                 {.name = "name", .type = Type::kText, .help = "default: cloth0, cloth1, ..."},
@@ -297,6 +258,10 @@ const TableKeys& cloth_table() {
                 {.name = "mesh",
                  .type = Type::kText,
                  .help = "Wavefront OBJ file, relative to the scene file"},
+                {.name = "rest",
+                 .type = Type::kText,
+                 .help = "of a mesh: OBJ file of its shape at rest, with the same faces (flat "
+                         "panels, for example); default: the mesh as it is placed"},
                 scale_key(),
                 rotation_key(),
                 translate_key(),
@@ -305,23 +270,60 @@ const TableKeys& cloth_table() {
                  .unit = "kg/m^2",
                  .required = true,
                  .range = positive_up_to(1e6)},
-                {.name = "stretch",
-                 .type = Type::kTable,
-                 .help = "springs along the edges; a cloth has these, a membrane or both",
-                 .table = &stretch_table()},
-                {.name = "membrane",
-                 .type = Type::kTable,
-                 .help = "the triangles as a thin sheet of elastic material (stable Neo-Hookean)",
-                 .table = &membrane_table()},
-                {.name = "bend",
-                 .type = Type::kTable,
-                 .help = "bending over edges; default: no bending",
-                 .table = &bend_table()},
                 damping_key(),
                 pins_key(cloth_pins_table()),
             },
         .exactly_one_of = {"grid", "cylinder", "mesh"},
     };
+}
+
+/// A solid of a lower ratio gives way under a compression that is no longer large (a fifth, from
+/// all sides), and one of a higher ratio is more than 100 times as stiff against changes of volume
+/// as against all else, which few sweeps over its vertices do not solve.
+const Key& solid_poisson_key() {
+    static const Key key{.name = "poisson",
+                         .help = "Poisson's ratio: 0.5 would be incompressible",
+                         .required = true,
+                         .range = {.low = -0.5, .high = 0.495}};
+    return key;
+}
+
+}  // namespace
+
+const Key& young_key() {
+    static const Key key{.name = "young",
+                         .help = "Young's modulus",
+                         .unit = "Pa",
+                         .required = true,
+                         .range = positive_up_to(1e15)};
+    return key;
+}
+
+const Key& poisson_key() {
+    static const Key key{
+        .name = "poisson",
+        .help = "Poisson's ratio: 0.5 would be incompressible",
+        .required = true,
+        .range = {.low = -1.0, .high = 0.5, .low_excluded = true, .high_excluded = true}};
+    return key;
+}
+
+Key motion_key(std::string help) {
+    return {
+        .name = "motion", .type = Type::kTable, .help = std::move(help), .table = &motion_table()};
+}
+
+const TableKeys& cloth_table() {
+    static const TableKeys table = [] {
+        TableKeys cloth = cloth_keys();
+        const auto density = std::ranges::find(cloth.keys, "density", &Key::name);
+        std::vector<Key> elements;
+        for (ElementKeys& family : element_keys()) {
+            for (Key& key : family.of_cloth) elements.push_back(std::move(key));
+        }
+        cloth.keys.insert(density + 1, elements.begin(), elements.end());
+        return cloth;
+    }();
     return table;
 }
 
@@ -346,7 +348,7 @@ const TableKeys& solid_table() {
                  .required = true,
                  .range = positive_up_to(1e6)},
                 young_key(),
-                poisson_key(),
+                solid_poisson_key(),
                 damping_key(),
                 pins_key(solid_pins_table()),
             },
@@ -382,10 +384,57 @@ const TableKeys& attachment_table() {
          .unit = "m",
          .range = between(0.0, 1e6)},
         corners_key(all_corners(), "corners of a, if it is a grid or block"),
+        edges_key(),
         rims_key(),
         faces_key(),
+        parts_key(),
         vertices_key(),
         box_key(),
+    }};
+    return table;
+}
+
+namespace {
+
+const TableKeys& seam_side_table() {
+    static const TableKeys table{{
+        {.name = "cloth", .type = Type::kText, .help = "name of the cloth", .required = true},
+        corners_key(kGridCorners, "corners of a grid"),
+        edges_key(),
+        rims_key(),
+        parts_key(),
+        vertices_key(),
+        box_key(),
+    }};
+    return table;
+}
+
+Key seam_side_key(std::string name, std::string help) {
+    return {.name = std::move(name),
+            .type = Type::kTable,
+            .help = std::move(help),
+            .required = true,
+            .table = &seam_side_table()};
+}
+
+}  // namespace
+
+const TableKeys& seam_table() {
+    static const TableKeys table{{
+        seam_side_key("a",
+                      "one edge: the selected vertices at the border of a cloth, or vertices "
+                      "listed one by one"),
+        seam_side_key("b", "the other edge, of the same cloth or another one"),
+        {.name = "stiffness",
+         .help = "of each stitch",
+         .unit = "N/m",
+         .required = true,
+         .range = positive()},
+        {.name = "time",
+         .help = "until the edges are together; then the stitches hold",
+         .unit = "s",
+         .required = true,
+         .range = {.low = 1e-6, .high = 1e6}},
     }};
     return table;
 }

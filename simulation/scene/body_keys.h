@@ -4,17 +4,21 @@
 
 #include "simulation/scene/keys.h"
 
-/// Parts of the table in keys.h: what cloths, solids and their attachments are described by.
+/// Parts of the table in keys.h: what cloths, solids, attachments and seams are described by.
 namespace weft {
 
 inline constexpr Range kLength = between(1e-6, 1e6);  ///< [m]
 inline constexpr Range kPlace = between(-1e6, 1e6);   ///< [m]
 
+/// What an elastic material is made of.
+const Key& young_key();
+const Key& poisson_key();
 /// How an obstacle or a group of pins moves.
 Key motion_key(std::string help);
 
 const TableKeys& cloth_table();
 const TableKeys& solid_table();
 const TableKeys& attachment_table();
+const TableKeys& seam_table();
 
 }  // namespace weft

@@ -26,8 +26,7 @@ const TableKeys& scene_table() {
          .range = positive_up_to(10.0)},
         {.name = "substeps",
          .type = Type::kInteger,
-         .help = "steps per frame",
-         .fallback = std::int64_t{1},
+         .help = "steps per frame; default: as many as meshes, iterations and gravity ask for",
          .range = between(1, 1e5)},
         {.name = "gravity",
          .forms = {{3}},
@@ -77,6 +76,23 @@ const TableKeys& guard_table() {
          .help = "an edge with |length / rest length - 1| beyond this counts as exploded",
          .fallback = Guard{}.max_strain,
          .range = positive()},
+    }};
+    return table;
+}
+
+const TableKeys& output_table() {
+    static const TableKeys table{{
+        {.name = "every",
+         .type = Type::kInteger,
+         .help = "geometry of every n-th frame is written, from the start on",
+         .unit = "frames",
+         .fallback = std::int64_t{OutputSettings{}.every},
+         .range = between(1, 1e7)},
+        {.name = "compression",
+         .type = Type::kText,
+         .help = "how much work goes into making the geometry small",
+         .fallback = std::string(name_of(OutputSettings{}.compression)),
+         .choices = compression_names()},
     }};
     return table;
 }
@@ -134,6 +150,11 @@ const TableKeys& scene_keys() {
          .help = "when a state counts as exploded",
          .table = &guard_table(),
          .made_if_absent = true},
+        {.name = "output",
+         .type = Type::kTable,
+         .help = "what a run leaves",
+         .table = &output_table(),
+         .made_if_absent = true},
         {.name = "cloth",
          .type = Type::kTable,
          .forms = {{kAny}},
@@ -149,6 +170,11 @@ const TableKeys& scene_keys() {
          .forms = {{kAny}},
          .help = "ties vertices of one cloth or solid to another",
          .table = &attachment_table()},
+        {.name = "seam",
+         .type = Type::kTable,
+         .forms = {{kAny}},
+         .help = "sews edges of cloths together",
+         .table = &seam_table()},
         {.name = "obstacle",
          .type = Type::kTable,
          .forms = {{kAny}},

@@ -1,6 +1,7 @@
 #include "simulation/scene/motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace weft {
 namespace {
@@ -26,6 +27,28 @@ Frame Motion::displacement(double time) const {
     if (key.rotate == 0.0) return {key.translate, Mat3{}};
     const Mat3 rotation = rotation_matrix(axis, key.rotate);
     return {center - rotation * center + key.translate, rotation};
+}
+
+FastestTurn fastest_turn(const Motion& motion) {
+    FastestTurn fastest{std::abs(motion.angular_velocity), 0.0};
+    for (std::size_t k = 1; k < motion.keys.size(); ++k) {
+        const MotionKey& a = motion.keys[k - 1];
+        const MotionKey& b = motion.keys[k];
+        const double rate = std::abs(b.rotate - a.rotate) / (b.time - a.time);
+        if (rate > fastest.rate) fastest = {rate, a.time};
+    }
+    return fastest;
+}
+
+/// The way is affine in the point, so its length is convex, and largest at a corner.
+double farthest_move(const Frame& before, const Frame& now, Vec3 half_size) {
+    double most = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto side = [&](int bit, double half) { return corner & bit ? half : -half; };
+        const Vec3 p{side(1, half_size.x), side(2, half_size.y), side(4, half_size.z)};
+        most = std::max(most, length(now.to_world(p) - before.to_world(p)));
+    }
+    return most;
 }
 
 Frame moved(const Frame& rest, const std::optional<Motion>& motion, double time) {

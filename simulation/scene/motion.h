@@ -39,6 +39,17 @@ struct Motion {
     Frame displacement(double time) const;
 };
 
+/// The fastest turn of a motion.
+struct FastestTurn {
+    double rate = 0.0;  ///< [degrees/s], >= 0
+    double time = 0.0;  ///< when it begins [s]
+};
+FastestTurn fastest_turn(const Motion& motion);
+
+/// How far the point that moves the farthest goes, of a box around the local origin, from one place
+/// to another [m].
+double farthest_move(const Frame& before, const Frame& now, Vec3 half_size);
+
 /// The place at `time` of something that is at `rest` at time 0.
 Frame moved(const Frame& rest, const std::optional<Motion>& motion, double time);
 

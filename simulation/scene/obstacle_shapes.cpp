@@ -32,7 +32,10 @@ Mat3 axes_with_up(Vec3 up) {
 
 void read_sphere(const Node& table, Obstacle& obstacle) {
     obstacle.frame.origin = vec3_value(table, "center");
-    obstacle.dimensions = {number_value(table, "radius")};
+    const double radius = number_value(table, "radius");
+    obstacle.dimensions = {radius};
+    obstacle.half_width = radius;
+    obstacle.half_size = {radius, radius, radius};
 }
 
 void read_plane(const Node& table, Obstacle& obstacle) {
@@ -48,7 +51,10 @@ void read_capsule(const Node& table, Obstacle& obstacle) {
     }
     obstacle.frame.origin = start + 0.5 * along;
     obstacle.frame.axes = axes_with_up(along);
-    obstacle.dimensions = {number_value(table, "radius"), 0.5 * length(along)};
+    const double radius = number_value(table, "radius");
+    obstacle.dimensions = {radius, 0.5 * length(along)};
+    obstacle.half_width = radius;
+    obstacle.half_size = {radius, radius + 0.5 * length(along), radius};
 }
 
 void read_box(const Node& table, Obstacle& obstacle) {
@@ -58,6 +64,8 @@ void read_box(const Node& table, Obstacle& obstacle) {
         obstacle.frame.axes =
             rotation_matrix(rotation.axis, rotation.degrees) * obstacle.frame.axes;
     }
+    obstacle.half_size = 0.5 * size;
+    obstacle.half_width = 0.5 * std::min({size.x, size.y, size.z});
     obstacle.dimensions = {0.5 * size.x, 0.5 * size.y, 0.5 * size.z};
 }
 

@@ -15,7 +15,7 @@ namespace weft {
 struct ObstacleShape {
     std::string name;
     std::vector<Key> keys;
-    /// Sets `frame` and `dimensions` from the checked table. Throws UserError.
+    /// Sets frame, dimensions, half_width and half_size from the checked table. Throws UserError.
     void (*read)(const Node& table, Obstacle& obstacle);
 };
 

@@ -1,7 +1,11 @@
 #include "simulation/scene/read_bodies.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <filesystem>
 
+#include "simulation/scene/elements/element_keys.h"
 #include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/read_motion.h"
@@ -28,9 +32,10 @@ CylinderShape read_cylinder(const Node& table) {
     return shape;
 }
 
-std::string mesh_path(const Node& table, const std::string& scene_path) {
-    const std::string name = text_value(table, "mesh");
-    if (name.empty()) throw value_error(table, "mesh", "expected the name of a mesh file");
+std::string mesh_path(const Node& table, const std::string& scene_path,
+                      std::string_view key = "mesh") {
+    const std::string name = text_value(table, key);
+    if (name.empty()) throw value_error(table, key, "expected the name of a mesh file");
     return (std::filesystem::path(scene_path).parent_path() / name).string();
 }
 
@@ -40,7 +45,21 @@ Shape read_cloth_shape(const Node& table, const std::string& scene_path) {
                          pair_of(integer_values(*grid, "resolution"))};
     }
     if (const Node* cylinder = table.find("cylinder")) return read_cylinder(*cylinder);
-    return MeshFile{mesh_path(table, scene_path)};
+    MeshFile file{mesh_path(table, scene_path)};
+    if (table.find("rest")) file.rest = mesh_path(table, scene_path, "rest");
+    return file;
+}
+
+/// A pattern is as large as it is in its file, times one factor.
+void check_rest(const Node& table, const Cloth& cloth) {
+    if (!table.find("rest")) return;
+    if (!std::holds_alternative<MeshFile>(cloth.shape)) {
+        throw value_error(table, "rest", "only a mesh has a rest shape of its own");
+    }
+    const Vec3 scale = cloth.transform.scale;
+    if (scale == Vec3{scale.x, scale.x, scale.x}) return;
+    throw value_error(table, "scale",
+                      "must be one factor, since the rest shape is scaled by it, too");
 }
 
 Shape read_solid_shape(const Node& table, const std::string& scene_path) {
@@ -90,8 +109,10 @@ bool has_corner(const Shape& shape, const std::string& corner) {
 void read_selection(const Node& table, const Shape& shape, Selection& selection) {
     selection.where = table.mark.text();
     selection.corners = text_values(table, "corners");
+    selection.edges = text_values(table, "edges");
     selection.rims = text_values(table, "rims");
     selection.faces = text_values(table, "faces");
+    selection.parts = text_values(table, "parts");
     selection.vertices = integer_values(table, "vertices");
     selection.boxes = read_boxes(table);
     for (const std::string& corner : selection.corners) {
@@ -102,17 +123,25 @@ void read_selection(const Node& table, const Shape& shape, Selection& selection)
                                   : "only a grid has corners; use vertices or box");
         }
     }
+    if (!selection.edges.empty() && !std::holds_alternative<GridShape>(shape)) {
+        throw value_error(table, "edges", "only a cloth's grid has edges; use vertices or box");
+    }
     if (!selection.rims.empty() && !std::holds_alternative<CylinderShape>(shape)) {
         throw value_error(table, "rims", "only a cylinder has rims; use vertices or box");
     }
     if (!selection.faces.empty() && !std::holds_alternative<BlockShape>(shape)) {
         throw value_error(table, "faces", "only a solid's grid has faces; use vertices or box");
     }
+    if (!selection.parts.empty() && !std::holds_alternative<MeshFile>(shape)) {
+        throw value_error(table, "parts",
+                          "only a cloth's mesh file has parts; use vertices or box");
+    }
 }
 
 bool names_any(const Selection& selection) {
-    return !selection.corners.empty() || !selection.rims.empty() || !selection.faces.empty() ||
-           !selection.vertices.empty() || !selection.boxes.empty();
+    return !selection.corners.empty() || !selection.edges.empty() || !selection.rims.empty() ||
+           !selection.faces.empty() || !selection.parts.empty() || !selection.vertices.empty() ||
+           !selection.boxes.empty();
 }
 
 std::vector<PinGroup> read_pins(const Node& table, const Shape& shape) {
@@ -164,12 +193,49 @@ Attachment read_attachment(const Node& table, const Scene& scene) {
     }
     read_selection(table, shape, attachment.selected);
     if (!names_any(attachment.selected)) {
-        throw value_error(table, "a",
-                          "say which of its vertices: corners, rims, faces, vertices or box");
+        throw value_error(
+            table, "a",
+            "say which of its vertices: corners, edges, rims, faces, parts, vertices or box");
     }
     attachment.stiffness = number_value(table, "stiffness");
     if (table.find("reach")) attachment.reach = number_value(table, "reach");
     return attachment;
+}
+
+/// What its triangles and edges are; something has to hold them together.
+void read_elements(const Node& table, Cloth& cloth) {
+    std::vector<std::string> holding;
+    bool is_held = false;
+    for (const ElementKeys& family : element_keys()) {
+        if (family.read != nullptr) family.read(table, cloth);
+        if (!family.holds_cloth) continue;
+        holding.push_back(family.of_cloth.front().name);
+        is_held = is_held || table.find(holding.back()) != nullptr;
+    }
+    if (is_held) return;
+    throw value_error(
+        table, holding.front(),
+        fmt::format("is missing: a cloth needs one or more of {}", fmt::join(holding, ", ")));
+}
+
+const Cloth& named_cloth(const Node& table, const Scene& scene) {
+    const std::string name = text_value(table, "cloth");
+    std::vector<std::string> names;
+    for (const Cloth& cloth : scene.cloths) {
+        if (cloth.name == name) return cloth;
+        names.push_back(cloth.name);
+    }
+    throw value_error(table, "cloth", "no cloth has this name; " + near_miss_or_list(name, names));
+}
+
+SeamSide read_seam_side(const Node& table, const Scene& scene) {
+    SeamSide side;
+    const Cloth& cloth = named_cloth(table, scene);
+    side.cloth = cloth.name;
+    read_selection(table, cloth.shape, side.selected);
+    if (names_any(side.selected)) return side;
+    throw value_error(table, "cloth",
+                      "say which of its vertices: edges, rims, parts, vertices or box");
 }
 
 }  // namespace
@@ -179,20 +245,9 @@ Cloth read_cloth(const Node& table, const std::string& scene_path) {
     cloth.where = table.mark.text();
     cloth.shape = read_cloth_shape(table, scene_path);
     cloth.transform = read_transform(table);
+    check_rest(table, cloth);
     cloth.density = number_value(table, "density");
-    if (const Node* stretch = table.find("stretch")) {
-        cloth.stretch.stiffness = number_value(*stretch, "stiffness");
-    }
-    if (const Node* membrane = table.find("membrane")) {
-        cloth.membrane = Membrane{read_material(*membrane), number_value(*membrane, "thickness")};
-    }
-    if (!table.find("stretch") && !cloth.membrane) {
-        throw value_error(table, "stretch", "is missing: a cloth needs stretch, membrane or both");
-    }
-    if (const Node* bend = table.find("bend")) {
-        if (const auto stiffness = optional_number(*bend, "stiffness"))
-            cloth.bend = Bend{*stiffness};
-    }
+    read_elements(table, cloth);
     cloth.damping = optional_number(table, "damping");
     cloth.pins = read_pins(table, cloth.shape);
     return cloth;
@@ -216,6 +271,18 @@ std::vector<Attachment> read_attachments(const Node& root, const Scene& scene) {
     if (!list) return attachments;
     for (const Node& table : list->array()) attachments.push_back(read_attachment(table, scene));
     return attachments;
+}
+
+std::vector<Seam> read_seams(const Node& root, const Scene& scene) {
+    std::vector<Seam> seams;
+    const Node* list = root.find("seam");
+    if (!list) return seams;
+    for (const Node& table : list->array()) {
+        seams.push_back({read_seam_side(*table.find("a"), scene),
+                         read_seam_side(*table.find("b"), scene), number_value(table, "stiffness"),
+                         number_value(table, "time"), table.mark.text()});
+    }
+    return seams;
 }
 
 }  // namespace weft

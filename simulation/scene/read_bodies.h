@@ -15,5 +15,6 @@ Solid read_solid(const Node& table, const std::string& scene_path);
 
 /// scene: has its cloths and solids already.
 std::vector<Attachment> read_attachments(const Node& root, const Scene& scene);
+std::vector<Seam> read_seams(const Node& root, const Scene& scene);
 
 }  // namespace weft

@@ -106,7 +106,7 @@ void read_scene_table(const Node& table, Scene& scene) {
     scene.name = read_name(table, stem.empty() ? "scene" : stem);
     scene.frames = integer_value(table, "frames");
     scene.dt = number_value(table, "dt");
-    scene.substeps = integer_value(table, "substeps");
+    if (table.find("substeps")) scene.substeps = integer_value(table, "substeps");
     scene.gravity = vec3_value(table, "gravity");
     scene.gravity_keys = read_gravity_keys(table);
 }
@@ -120,6 +120,9 @@ Scene read_document(const Node& root, const std::string& path) {
     scene.solver.iterations = integer_value(*root.find("solver"), "iterations");
     const Node& guard = *root.find("guard");
     scene.guard = {number_value(guard, "max_speed"), number_value(guard, "max_strain")};
+    const Node& output = *root.find("output");
+    scene.output = {integer_value(output, "every"),
+                    compression_named(text_value(output, "compression"))};
     std::set<std::string> names;
     scene.cloths = read_entries<Cloth>(root, "cloth", names,
                                        [&](const Node& table) { return read_cloth(table, path); });
@@ -128,6 +131,7 @@ Scene read_document(const Node& root, const std::string& path) {
     std::set<std::string> obstacle_names;
     scene.obstacles = read_entries<Obstacle>(root, "obstacle", obstacle_names, read_obstacle);
     scene.attachments = read_attachments(root, scene);
+    scene.seams = read_seams(root, scene);
     if (scene.cloths.empty() && scene.solids.empty()) {
         throw UserError(path + ": a scene needs at least one [[cloth]] or [[solid]]");
     }

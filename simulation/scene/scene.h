@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "runtime/io/compression.h"
 #include "simulation/mesh/vec3.h"
+#include "simulation/scene/element_settings.h"
 #include "simulation/scene/method.h"
 #include "simulation/scene/motion.h"
 
@@ -49,7 +52,8 @@ struct BlockShape {
 
 /// Of cloth a Wavefront OBJ file, of a solid a Gmsh (.msh) or VTK (.vtk) file.
 struct MeshFile {
-    std::string path;  ///< already joined to the scene's folder
+    std::string path;    ///< already joined to the scene's folder
+    std::string rest{};  ///< of cloth: its shape at rest, another such file; empty: the same
 };
 
 struct Rotation {
@@ -69,7 +73,7 @@ using Shape = std::variant<GridShape, CylinderShape, BlockShape, MeshFile>;
 
 /// Springs along the edges of the triangles.
 struct Stretch {
-    double stiffness = 0.0;  ///< per edge [N/m]; 0: no springs, then there is a membrane
+    double stiffness = 0.0;  ///< per edge [N/m]; 0: no springs
 };
 
 /// What an elastic material is made of.
@@ -84,9 +88,10 @@ struct Membrane {
     double thickness = 0.0;  ///< [m], > 0
 };
 
-/// Quadratic bending over every edge between two triangles.
+/// Bending over every edge between two triangles.
 struct Bend {
-    double stiffness = 0.0;  ///< [J], > 0
+    double stiffness = 0.0;     ///< [J], > 0
+    bool rest_is_flat = false;  ///< whatever the rest shape is
 };
 
 /// Axis-aligned box in world coordinates at time 0.
@@ -99,8 +104,10 @@ struct Box3 {
 /// selection.h.
 struct Selection {
     std::vector<std::string> corners;  ///< of a grid or block
+    std::vector<std::string> edges;    ///< of a grid of cloth: "x-", "x+", "z-", "z+"
     std::vector<std::string> rims;     ///< of a cylinder: "top", "bottom"
     std::vector<std::string> faces;    ///< of a block
+    std::vector<std::string> parts;    ///< objects and groups of a cloth's OBJ file
     std::vector<int> vertices;
     std::vector<Box3> boxes;
     std::string where;  ///< "file:line:column", for messages
@@ -120,6 +127,7 @@ struct Cloth {
     Stretch stretch;
     std::optional<Membrane> membrane;
     std::optional<Bend> bend;
+    ElementSettings elements;       ///< of further families
     std::optional<double> damping;  ///< of velocities [1/s], > 0
     std::vector<PinGroup> pins;
     std::string where;  ///< "file:line:column", for messages
@@ -148,6 +156,21 @@ struct Attachment {
     std::string where;            ///< "file:line:column", for messages
 };
 
+/// One of the two edges that a seam joins: those of a cloth's border vertices that are selected.
+struct SeamSide {
+    std::string cloth;
+    Selection selected;
+};
+
+/// [[seam]]: stitches between two edges of one cloth or two, which are pulled together and then
+/// hold.
+struct Seam {
+    SeamSide a, b;
+    double stiffness = 0.0;  ///< of each stitch [N/m], > 0
+    double time = 0.0;       ///< until it is closed [s], > 0
+    std::string where;       ///< "file:line:column", for messages
+};
+
 /// [[obstacle]]: a rigid body that moves as it is told and pushes cloth and solids out.
 ///
 /// Every shape lives in its own local frame, so that a kernel for it is one signed distance.
@@ -156,9 +179,12 @@ struct Obstacle {
     std::string name;                    ///< unique in its scene
     std::string shape;                   ///< as in obstacle_shapes.h
     std::array<double, 4> dimensions{};  ///< [m] as in kernels/obstacles/<shape>.h
-    Frame frame;                         ///< local to world at time 0
-    std::optional<double> friction;      ///< Coulomb coefficient, > 0
-    double thickness = 0.0;              ///< [m] cloth keeps this distance, >= 0
+    /// [m] from the deepest point inside to the surface: half the least width; infinite for planes.
+    double half_width = std::numeric_limits<double>::infinity();
+    Vec3 half_size;                  ///< [m] of its box around the local origin; 0 for planes
+    Frame frame;                     ///< local to world at time 0
+    std::optional<double> friction;  ///< Coulomb coefficient, > 0
+    double thickness = 0.0;          ///< [m] cloth keeps this distance, >= 0
     std::optional<Motion> motion;
 
     /// Local to world at `time` [s].
@@ -173,6 +199,12 @@ struct Guard {
     double max_strain = 100.0;
 };
 
+/// [output]: the geometry that a run leaves.
+struct OutputSettings {
+    int every = 1;  ///< frames, >= 1
+    Compression compression = Compression::kFast;
+};
+
 /// Gravity at one time; linear between keys, held before the first and after the last.
 struct GravityKey {
     double time = 0.0;  ///< [s]
@@ -184,15 +216,17 @@ struct Scene {
     std::string name;
     int frames = 0;                        ///< >= 1
     double dt = 0.0;                       ///< one frame [s], > 0
-    int substeps = 1;                      ///< per frame, >= 1
+    int substeps = 0;                      ///< per frame, >= 1; 0: as many as the model needs
     Vec3 gravity;                          ///< [m/s^2]; not used where gravity_keys is not empty
     std::vector<GravityKey> gravity_keys;  ///< by rising time; empty: constant gravity
 
     SolverSettings solver;
     Guard guard;
+    OutputSettings output;
     std::vector<Cloth> cloths;
     std::vector<Solid> solids;
     std::vector<Attachment> attachments;
+    std::vector<Seam> seams;
     std::vector<Obstacle> obstacles;
 
     // Where it came from, for traces and replays.

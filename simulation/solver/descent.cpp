@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kernels/descent/free_bodies.h"
 #include "kernels/descent/substep.h"
 #include "kernels/motion.h"
-#include "simulation/solver/slopes.h"
 
 namespace weft {
 
 DescentSubstep::DescentSubstep(Model& model)
-    : model_(model), targets_("targets", static_cast<std::size_t>(model.vertex_count())) {
+    : model_(model),
+      targets_("targets", static_cast<std::size_t>(model.vertex_count())),
+      free_bodies_(FreeBodies::of(model)) {
     if (model.obstacles) pushed_ = std::make_unique<Buffer<float4>>("pushed", targets_.count());
 }
 
@@ -36,7 +38,24 @@ std::vector<Launch> DescentSubstep::end() {
         update(kernels::update_velocities);
     launches.push_back(
         launch(kernels::keep_deviation, model_.vertices(), *model_.positions, targets_));
+    if (free_bodies_) add_shift(launches);
     return launches;
+}
+
+/// Obstacles have the last word: a shift may lead into them.
+void DescentSubstep::add_shift(std::vector<Launch>& launches) {
+    for (Launch& shift : free_bodies_->shift(model_, targets_)) launches.push_back(shift);
+    if (!model_.obstacles) return;
+    launches.push_back(
+        launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
+    model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
+                                   *model_.previous);
+    launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,
+                              *pushed_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
+}
+
+std::vector<Launch> DescentSubstep::sum_momentum(Buffer<float4>& positions) {
+    return free_bodies_->sum(positions, targets_);
 }
 
 void DescentSubstep::add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions) {
@@ -49,8 +68,7 @@ void DescentSubstep::add_contacts(std::vector<Launch>& launches, Buffer<float4>&
 
 void DescentSubstep::add_contact_accesses(Step::Adding& task, int first, int last) {
     if (!model_.obstacles) return;
-    task.updates(targets_, first, last);
-    if (model_.obstacles->have_friction()) task.reads(*model_.previous, first, last);
+    task.updates(targets_, first, last).reads(*model_.previous, first, last);
 }
 
 std::pair<int, int> DescentSubstep::vertices(int first_strip, int end_strip) const {
@@ -68,20 +86,31 @@ void DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& r
         .updates(targets_, first, last);
 }
 
+void DescentSubstep::add_sum(Step& step, const TaskBody& body, const Region& region,
+                             Buffer<float4>& positions, int iteration) {
+    if (!free_bodies_->reach_into(region.begin, region.end)) return;
+    const auto [first, last] = vertices(region.begin, region.end);
+    auto task = step.add(body, iteration, region.begin, region.end, region.id);
+    task.reads(positions, first, last).reads(targets_, first, last);
+    free_bodies_->add_sum_accesses(task, region.begin, region.end);
+}
+
 Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
                                      int iteration) {
     const auto [first, last] = vertices(region.begin, region.end);
-    return step.add(body, iteration, region.begin, region.end, region.id)
-        .reads(*model_.positions, first, last)
-        .reads(*model_.previous, first, last)
+    auto task = step.add(body, iteration, region.begin, region.end, region.id);
+    task.reads(*model_.previous, first, last)
         .updates(*model_.velocities, first, last)
         .updates(targets_, first, last);
+    if (!free_bodies_) return task.reads(*model_.positions, first, last);
+    free_bodies_->add_shift_accesses(task);
+    return task.updates(*model_.positions, first, last);
 }
 
-Reach::Reach(const Model& model) : lowest_(model.strips.order.size()), highest_(lowest_.size()) {
+Halo::Halo(const Model& model) : lowest_(model.strips.order.size()), highest_(lowest_.size()) {
     std::iota(lowest_.begin(), lowest_.end(), 0);
     std::iota(highest_.begin(), highest_.end(), 0);
-    for (const Stencils& kind : all_stencils(model)) {
+    for (const Stencils& kind : model.stencils()) {
         for (int e = 0; e < kind.count(); ++e) {
             const auto [low, high] = std::ranges::minmax(kind[e]);
             for (const int v : kind[e]) {
@@ -94,7 +123,7 @@ Reach::Reach(const Model& model) : lowest_(model.strips.order.size()), highest_(
     }
 }
 
-std::pair<int, int> Reach::around(int begin, int end) const {
+std::pair<int, int> Halo::around(int begin, int end) const {
     if (begin >= end) return {begin, end};
     return {*std::min_element(lowest_.begin() + begin, lowest_.begin() + end),
             *std::max_element(highest_.begin() + begin, highest_.begin() + end) + 1};

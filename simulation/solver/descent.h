@@ -6,6 +6,7 @@
 
 #include "runtime/step.h"
 #include "simulation/model/model.h"
+#include "simulation/solver/free_bodies.h"
 #include "simulation/solver/regions.h"
 
 namespace weft {
@@ -21,6 +22,13 @@ public:
     void add_begin(Step& step, const TaskBody& body, const Region& region);
     Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
 
+    /// Whether there are bodies whose momentum has to be summed between the last iteration and the
+    /// end; what that launches, for the positions after the last iteration.
+    bool has_free_bodies() const { return free_bodies_ != nullptr; }
+    std::vector<Launch> sum_momentum(Buffer<float4>& positions);
+    void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
+                 int iteration);
+
     /// Pushes vertices out of obstacles, as the last thing of an iteration; nothing without any.
     void add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions);
     /// What that needs of vertices [first, last), besides the positions.
@@ -33,15 +41,18 @@ public:
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
 private:
+    void add_shift(std::vector<Launch>& launches);
+
     Model& model_;
     Buffer<float4> targets_;
-    std::unique_ptr<Buffer<float4>> pushed_;  ///< null: no obstacles
+    std::unique_ptr<Buffer<float4>> pushed_;   ///< null: no obstacles
+    std::unique_ptr<FreeBodies> free_bodies_;  ///< null: none
 };
 
-/// How far the elements of vertices reach.
-class Reach {
+/// Which positions the elements of a range of vertices read.
+class Halo {
 public:
-    explicit Reach(const Model& model);
+    explicit Halo(const Model& model);
 
     /// The range of vertices that share an element with one of [begin, end), and those themselves.
     std::pair<int, int> around(int begin, int end) const;

@@ -14,21 +14,19 @@ EnergySum::EnergySum(Model& model, Buffer<float4>& targets)
       column_begin_("energy.strips", used_.size() + 1),
       partials_("energy.partials", kColumns * used_.size()) {
     vertices_ = make_vertices_part();
-    if (model.springs) springs_ = make_part("springs.terms", model.springs->elements);
-    if (model.membranes) membranes_ = make_part("membranes.terms", model.membranes->elements);
-    if (model.tetrahedra) tetrahedra_ = make_part("tetrahedra.terms", model.tetrahedra->elements);
-    if (model.hinges) hinges_ = make_part("hinges.terms", model.hinges->elements);
+    for (const auto& family : model.families) families_.push_back(make_part(*family));
     place_strips();
 }
 
-std::unique_ptr<EnergySum::Part> EnergySum::make_part(const std::string& name, Elements& elements) {
+std::unique_ptr<EnergySum::Part> EnergySum::make_part(const ElementFamily& family) {
     const int strips = model_.strips.count();
-    auto part = std::make_unique<Part>(name, elements.count(), kPhaseCount * (strips + 1));
+    auto part = std::make_unique<Part>(family.names().name + ".terms", family.count(),
+                                       kPhaseCount * (strips + 1));
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
         const int first = phase * (strips + 1);
         for (int s = 0; s <= strips; ++s) {
             part->strip_begin[static_cast<std::size_t>(first + s)] =
-                elements.segments(phase).item(s, 0);
+                family.elements().segments(phase).item(s, 0);
         }
         part->items.push_back({&part->strip_begin, first, 1, strips});
     }
@@ -70,14 +68,16 @@ void EnergySum::place_strips() {
     }
     column_begin_[used_.size()] = static_cast<int>(used_.size()) * kColumns;
     terms_ = std::make_unique<Buffer<float>>("energy.terms", static_cast<std::size_t>(base.back()));
-    for (Part* part :
-         {vertices_.get(), springs_.get(), membranes_.get(), tetrahedra_.get(), hinges_.get()}) {
-        if (part == nullptr) continue;
-        for (const Segments& items : part->items) {
-            for (int s = 0; s < items.strip_count; ++s) {
-                for (int i = items.item(s); i < items.item(s + 1); ++i) {
-                    part->slots[static_cast<std::size_t>(i)] += base[static_cast<std::size_t>(s)];
-                }
+    move_into_strips(*vertices_, base);
+    for (const auto& part : families_) move_into_strips(*part, base);
+}
+
+/// base: [strips] where each one's terms begin
+void EnergySum::move_into_strips(Part& part, const std::vector<int>& base) {
+    for (const Segments& items : part.items) {
+        for (int s = 0; s < items.strip_count; ++s) {
+            for (int i = items.item(s); i < items.item(s + 1); ++i) {
+                part.slots[static_cast<std::size_t>(i)] += base[static_cast<std::size_t>(s)];
             }
         }
     }
@@ -88,24 +88,10 @@ std::vector<Launch> EnergySum::launches(Buffer<float4>& positions) {
                                         targets_, vertices_->slots, *terms_,
                                         static_cast<float>(1.0 / (model_.h * model_.h)))};
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
-        if (springs_) {
-            Elements& elements = model_.springs->elements;
-            launches.push_back(launch(kernels::spring_terms, springs_->items[phase], positions,
-                                      elements.vertices(), model_.springs->material,
-                                      springs_->slots, *terms_, elements.count()));
-        }
-        const auto add_elastic = [&](auto kernel, auto& kind, Part& part) {
-            launches.push_back(launch(kernel, part.items[phase], positions,
-                                      kind.elements.vertices(), kind.shape, kind.material,
-                                      part.slots, *terms_, kind.elements.count()));
-        };
-        if (membranes_) add_elastic(kernels::membrane_terms, *model_.membranes, *membranes_);
-        if (tetrahedra_) add_elastic(kernels::tetrahedron_terms, *model_.tetrahedra, *tetrahedra_);
-        if (hinges_) {
-            Elements& elements = model_.hinges->elements;
-            launches.push_back(launch(kernels::hinge_terms, hinges_->items[phase], positions,
-                                      elements.vertices(), model_.hinges->weights, hinges_->slots,
-                                      *terms_, elements.count()));
+        for (std::size_t f = 0; f < families_.size(); ++f) {
+            Part& part = *families_[f];
+            launches.push_back(model_.families[f]->energy_terms(
+                {part.items[phase], positions, part.slots, *terms_}));
         }
     }
     const Segments columns{&column_begin_, 0, 1, model_.strips.count()};

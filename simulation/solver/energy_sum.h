@@ -32,16 +32,18 @@ private:
         Buffer<int> strip_begin;      ///< one segment per strip, for each phase
         std::vector<Segments> items;  ///< [phases]
     };
-    std::unique_ptr<Part> make_part(const std::string& name, Elements& elements);
+    std::unique_ptr<Part> make_part(const ElementFamily& family);
     std::unique_ptr<Part> make_vertices_part();
     /// Gives the part's items their places behind those that each strip already has.
     void take_places(Part& part);
     void place_strips();
+    void move_into_strips(Part& part, const std::vector<int>& base);
 
     Model& model_;
     Buffer<float4>& targets_;
     std::vector<int> used_;  ///< [strips] terms
-    std::unique_ptr<Part> vertices_, springs_, membranes_, tetrahedra_, hinges_;
+    std::unique_ptr<Part> vertices_;
+    std::vector<std::unique_ptr<Part>> families_;  ///< as the model's
     std::unique_ptr<Buffer<float>> terms_;
     Buffer<int> columns_;       ///< [2 * kColumns * strips]
     Buffer<int> column_begin_;  ///< [strips + 1]

@@ -6,15 +6,15 @@
 #include "kernels/descent/substep.h"
 #include "kernels/jpgd/control.h"
 #include "kernels/jpgd/step.h"
+#include "simulation/solver/derivatives.h"
 #include "simulation/solver/descent.h"
 #include "simulation/solver/energy_sum.h"
-#include "simulation/solver/slopes.h"
 
 namespace weft {
 
 namespace {
 
-enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities };
+enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities, kMomentum };
 
 constexpr int kCheckEvery = 8;     ///< iterations
 constexpr int kRefreshEvery = 32;  ///< iterations
@@ -52,7 +52,7 @@ public:
           iterations_(model.scene.solver.iterations),
           substep_(model),
           items_(model.strips),
-          slopes_(model, items_),
+          derivatives_(model, items_),
           energy_(model, substep_.targets()),
           other_("positions.other", model.positions->count()),
           residues_{Buffer<float4>("positions.residue", model.positions->count()),
@@ -76,10 +76,14 @@ public:
                 list.push_back(&(*bodies)[parity]);
             }
         }
+        if (substep_.has_free_bodies()) list.push_back(&momentum_);
         return list;
     }
     std::vector<std::string> kinds() const override {
-        return {"predict", "energy", "decide", "revert", "refresh", "step", "velocities"};
+        std::vector<std::string> names{"predict", "energy", "decide",    "revert",
+                                       "refresh", "step",   "velocities"};
+        if (substep_.has_free_bodies()) names.push_back("momentum");
+        return names;
     }
     std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
 
@@ -96,6 +100,10 @@ public:
             }
         }
         add_check(step, regions, iterations_);
+        for (const Region& region : regions) {
+            if (!substep_.has_free_bodies()) break;
+            substep_.add_sum(step, momentum_, region, after(iterations_), iterations_ - 1);
+        }
         for (const Region& region : regions) add_velocities(step, region);
         step.seal();
         return step;
@@ -128,12 +136,15 @@ private:
             if (kept_targets_) {
                 reverts_[p].launches.push_back(keep_or_revert(substep_.targets(), *kept_targets_));
             }
-            refreshes_[p] = {"refresh", kRefresh, slopes_.gather(kInnerPhase, after(parity))};
-            steps_[p] = {"step", kStep, slopes_.gather_forces(kInnerPhase, after(parity))};
+            refreshes_[p] = {"refresh", kRefresh, derivatives_.gather(kInnerPhase, after(parity))};
+            steps_[p] = {"step", kStep, derivatives_.gather_gradients(kInnerPhase, after(parity))};
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
                 body->launches.push_back(descend(parity));
                 substep_.add_contacts(body->launches, after(parity + 1));
             }
+        }
+        if (substep_.has_free_bodies()) {
+            momentum_ = {"momentum", kMomentum, substep_.sum_momentum(after(iterations_))};
         }
         velocities_ = {"velocities", kVelocities, {}};
         if (iterations_ % 2 != 0) {
@@ -151,7 +162,7 @@ private:
     Launch descend(int parity) {
         return launch(kernels::step_preconditioned, model_.vertices(), after(parity),
                       after(parity + 1), residue(parity), residue(parity + 1), substep_.targets(),
-                      slopes_.sums(), control_, weights_, items_.count(),
+                      derivatives_.sums(), control_, weights_, items_.count(),
                       static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
     }
 
@@ -160,9 +171,9 @@ private:
         const int columns = EnergySum::kColumns;
         for (const Region& region : regions) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            const auto [reach_begin, reach_end] = reach_.around(first, last);
+            const auto [halo_begin, halo_end] = halo_.around(first, last);
             step.add(energies_[parity], iteration, region.begin, region.end, region.id)
-                .reads(after(iteration), reach_begin, reach_end)
+                .reads(after(iteration), halo_begin, halo_end)
                 .reads(substep_.targets(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
         }
@@ -184,16 +195,16 @@ private:
         const bool is_fresh = iteration % kRefreshEvery == 0;
         const auto parity = static_cast<std::size_t>(iteration % 2);
         const auto [first, last] = substep_.vertices(begin, end);
-        const auto [reach_begin, reach_end] = reach_.around(first, last);
+        const auto [halo_begin, halo_end] = halo_.around(first, last);
         auto task =
             step.add(is_fresh ? refreshes_[parity] : steps_[parity], iteration, begin, end, region);
         task.reads(control_, 0, WEFT_CONTROL_SIZE)
-            .reads(after(iteration), reach_begin, reach_end)
+            .reads(after(iteration), halo_begin, halo_end)
             .reads(substep_.targets(), first, last)
             .updates(after(iteration + 1), first, last)
             .reads(residue(iteration), first, last)
             .updates(residue(iteration + 1), first, last);
-        slopes_.add_hessian_accesses(task, first, last, is_fresh);
+        derivatives_.add_hessian_accesses(task, first, last, is_fresh);
         substep_.add_contact_accesses(task, first, last);
     }
 
@@ -208,9 +219,9 @@ private:
     int iterations_;
     DescentSubstep substep_;
     VertexItems items_;
-    Slopes slopes_;
+    VertexDerivatives derivatives_;
     EnergySum energy_;
-    Reach reach_{model_};
+    Halo halo_{model_};
     Buffer<float4> other_;
     std::array<Buffer<float4>, 2> residues_;  ///< [parity of iterations]
     Buffer<float4> kept_;
@@ -219,6 +230,7 @@ private:
     Buffer<float> weights_;
     Buffer<int> first_strip_;  ///< one item, in strip 0
     TaskBody predict_, decide_, velocities_;
+    TaskBody momentum_;                                               ///< empty: no free bodies
     std::array<TaskBody, 2> energies_, reverts_, refreshes_, steps_;  ///< [parity of iterations]
 };
 

@@ -11,9 +11,10 @@ namespace weft {
 /// those of the stencil's own element, in a form that is positive semi-definite together with its
 /// part of the vertices' blocks.
 ///
-/// Stencils are tetrahedra, triangle membranes and springs. In a sweep they are independent of each
+/// Stencils are elements of the families that offer it (has_stencils()): tetrahedra before
+/// triangles before springs. In a sweep they are independent of each
 /// other: a main block, one colour of elements, filled up with others between vertices that are
-/// still alone. A vertex that remains alone solves its own 3x3 system. Successive sweeps have
+/// in none yet. A vertex that remains single solves its own 3x3 system. Successive sweeps have
 /// different main blocks, so that all directions get their turn.
 ///
 /// Where it differs from the paper: there the main block runs as Gauss-Seidel and all other

@@ -3,15 +3,19 @@
 namespace weft {
 
 namespace {
-enum Kind { kPredict, kSeams, kStrips, kVelocities };
+enum Kind { kPredict, kSeams, kStrips, kVelocities, kMomentum };
 }
 
 SweepSolver::SweepSolver(Model& model)
     : model_(model),
       substep_(model),
-      reach_(model),
+      halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
-      velocities_{"velocities", kVelocities, substep_.end()} {}
+      velocities_{"velocities", kVelocities, substep_.end()} {
+    if (substep_.has_free_bodies()) {
+        momentum_ = {"momentum", kMomentum, substep_.sum_momentum(*model.positions)};
+    }
+}
 
 void SweepSolver::add_sweep(const VertexLayout& layout,
                             const std::function<std::vector<Launch>(const SweepTarget&)>& solve) {
@@ -21,9 +25,9 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
         TaskBody& body = phase == kSeamPhase ? sweep.seams : sweep.strips;
-        body.launches = sweep.slopes.gather(phase, *model_.positions);
-        for (Launch& launch : solve({phase, *model_.positions, sweep.items, sweep.slopes.sums(),
-                                     substep_.targets(), inverse_h2})) {
+        body.launches = sweep.derivatives.gather(phase, *model_.positions);
+        for (Launch& launch : solve({phase, *model_.positions, sweep.items,
+                                     sweep.derivatives.sums(), substep_.targets(), inverse_h2})) {
             body.launches.push_back(std::move(launch));
         }
         body.taking_turns = static_cast<int>(body.launches.size());
@@ -38,11 +42,14 @@ std::vector<const TaskBody*> SweepSolver::bodies() const {
         list.push_back(&sweep->strips);
     }
     list.push_back(&velocities_);
+    if (substep_.has_free_bodies()) list.push_back(&momentum_);
     return list;
 }
 
 std::vector<std::string> SweepSolver::kinds() const {
-    return {"predict", "seams", "strips", "velocities"};
+    std::vector<std::string> names{"predict", "seams", "strips", "velocities"};
+    if (substep_.has_free_bodies()) names.push_back("momentum");
+    return names;
 }
 
 Step SweepSolver::make_step(std::span<const int> cuts) {
@@ -51,6 +58,10 @@ Step SweepSolver::make_step(std::span<const int> cuts) {
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
     for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
+    for (const Region& region : regions) {
+        if (!substep_.has_free_bodies()) break;
+        substep_.add_sum(step, momentum_, region, *model_.positions, iterations - 1);
+    }
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);
     }
@@ -67,15 +78,15 @@ void SweepSolver::add_iteration(Step& step, const std::vector<Region>& regions, 
     }
 }
 
-/// The vertices of a seam lie within its hull; their elements reach into both strips.
+/// The vertices of a seam lie within its hull; their elements have vertices in both strips.
 void SweepSolver::add_seams(Step& step, int iteration, int begin, int end, int region) {
     const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
     const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
-    const auto [reach_begin, reach_end] = reach_.around(first, last);
+    const auto [halo_begin, halo_end] = halo_.around(first, last);
     step.add(sweep(iteration).seams, iteration, begin, end, region)
         .updates(*model_.positions, first, last)
-        .reads(*model_.positions, reach_begin, first)
-        .reads(*model_.positions, last, reach_end)
+        .reads(*model_.positions, halo_begin, first)
+        .reads(*model_.positions, last, halo_end)
         .reads(substep_.targets(), first, last);
 }
 

@@ -3,21 +3,11 @@
 #include <functional>
 #include <memory>
 
+#include "simulation/solver/derivatives.h"
 #include "simulation/solver/descent.h"
-#include "simulation/solver/slopes.h"
 #include "simulation/solver/solver.h"
 
 namespace weft {
-
-/// What a block descent method's launches work on, and what they are told.
-struct SweepTarget {
-    Phase phase;
-    Buffer<float4>& positions;
-    VertexItems& items;
-    Buffer<float>& sums;  ///< of all elements, see kernels/descent/rows.h
-    Buffer<float4>& targets;
-    float inverse_h2;
-};
 
 /// What block descent methods share: Gauss-Seidel sweeps over the vertices on strips and seams.
 ///
@@ -26,7 +16,8 @@ struct SweepTarget {
 ///           gradient and Hessian of each vertex, then the method solves its systems
 ///   strips: all vertices inside a strip likewise, then obstacles (all vertices), as in XPBD: an
 ///           iteration ends without penetration, and friction sees the whole iteration's slip
-/// then velocities. This order is the same for every number of devices: it defines the result.
+/// then the momentum of free bodies, where there are any, and velocities. This order is the same
+/// for every number of devices: it defines the result.
 class SweepSolver : public Solver {
 public:
     std::vector<const TaskBody*> bodies() const override;
@@ -47,9 +38,9 @@ protected:
 private:
     struct Sweep {
         Sweep(const Model& model, const VertexLayout& layout)
-            : items(layout), slopes(model, items) {}
+            : items(layout), derivatives(model, items) {}
         VertexItems items;
-        Slopes slopes;
+        VertexDerivatives derivatives;
         TaskBody seams, strips;
     };
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration);
@@ -61,8 +52,9 @@ private:
 
     Model& model_;
     DescentSubstep substep_;
-    Reach reach_;
+    Halo halo_;
     TaskBody predict_, velocities_;
+    TaskBody momentum_;  ///< empty: no free bodies
     std::vector<std::unique_ptr<Sweep>> sweeps_;
 };
 

@@ -10,7 +10,7 @@ namespace {
 class VbdSolver final : public SweepSolver {
 public:
     explicit VbdSolver(Model& model) : SweepSolver(model) {
-        add_sweep(make_vertex_layout(all_stencils(model), model.strips), [](const SweepTarget& t) {
+        add_sweep(make_vertex_layout(model.stencils(), model.strips), [](const SweepTarget& t) {
             return std::vector{launch(kernels::solve_vertices, t.items.segments(t.phase),
                                       t.positions, t.targets, t.items.vertices(), t.sums,
                                       t.items.count(), t.inverse_h2)};

@@ -1,10 +1,6 @@
 #include "simulation/solver/xpbd.h"
 
 #include "kernels/motion.h"
-#include "kernels/xpbd/hinges.h"
-#include "kernels/xpbd/membranes.h"
-#include "kernels/xpbd/springs.h"
-#include "kernels/xpbd/tetrahedra.h"
 #include "simulation/solver/regions.h"
 
 namespace weft {
@@ -13,18 +9,13 @@ namespace {
 
 enum Kind { kPredict, kSeams, kStrips, kVelocities };
 
-/// The multipliers of one kind of element: a buffer per constraint.
+/// The multipliers of one family: a buffer per constraint.
 using Multipliers = std::vector<std::unique_ptr<Buffer<float>>>;
 
 class XpbdSolver final : public Solver {
 public:
     explicit XpbdSolver(Model& model) : model_(model) {
-        if (model.springs) add_kind("springs", model.springs->elements, {""});
-        if (model.membranes) add_kind("membranes", model.membranes->elements, {".area", ".shape"});
-        if (model.tetrahedra) {
-            add_kind("tetrahedra", model.tetrahedra->elements, {".volume", ".shape"});
-        }
-        if (model.hinges) add_kind("hinges", model.hinges->elements, {""});
+        for (const auto& family : model.families) add_multipliers(*family);
         make_predict();
         for (const int fresh : {0, 1}) {
             seams_[fresh] = {"seams", kSeams, project(kSeamPhase, fresh)};
@@ -81,44 +72,22 @@ private:
             update(kernels::update_velocities);
     }
 
-    void add_kind(const std::string& name, const Elements& elements,
-                  std::initializer_list<const char*> constraints) {
-        Multipliers& kind = multipliers_.emplace_back();
-        for (const char* constraint : constraints) {
-            kind.push_back(std::make_unique<Buffer<float>>(
-                name + ".multipliers" + constraint, static_cast<std::size_t>(elements.count())));
+    void add_multipliers(const ElementFamily& family) {
+        Multipliers& multipliers = multipliers_.emplace_back();
+        for (const std::string& constraint : family.constraints()) {
+            multipliers.push_back(
+                std::make_unique<Buffer<float>>(family.names().name + ".multipliers" + constraint,
+                                                static_cast<std::size_t>(family.count())));
         }
     }
 
-    /// One launch per kind of element, in the order of multipliers_.
+    /// One launch per family.
     std::vector<Launch> project(Phase phase, int fresh) {
         const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
         std::vector<Launch> launches;
-        const auto add = [&](auto kernel, Elements& elements, auto&... rest) {
-            launches.push_back(launch(kernel, elements.segments(phase), *model_.positions,
-                                      elements.vertices(), rest..., elements.count(), inverse_h2,
-                                      fresh));
-        };
-        const auto multipliers = [&](std::size_t constraint = 0) -> Buffer<float>& {
-            return *multipliers_[launches.size()][constraint];
-        };
-        if (model_.springs) {
-            add(kernels::project_springs, model_.springs->elements, model_.springs->material,
-                multipliers());
-        }
-        if (model_.membranes) {
-            Membranes& membranes = *model_.membranes;
-            add(kernels::project_membranes, membranes.elements, membranes.shape, membranes.material,
-                multipliers(0), multipliers(1));
-        }
-        if (model_.tetrahedra) {
-            Tetrahedra& tetrahedra = *model_.tetrahedra;
-            add(kernels::project_tetrahedra, tetrahedra.elements, tetrahedra.shape,
-                tetrahedra.material, multipliers(0), multipliers(1));
-        }
-        if (model_.hinges) {
-            add(kernels::project_hinges, model_.hinges->elements, model_.hinges->weights,
-                multipliers());
+        for (std::size_t f = 0; f < multipliers_.size(); ++f) {
+            launches.push_back(model_.families[f]->project(
+                {phase, *model_.positions, multipliers_[f], inverse_h2, fresh}));
         }
         return launches;
     }
@@ -171,21 +140,21 @@ private:
         auto task = step.add(body, iteration, begin, end, id);
         task.updates(*model_.positions, first_vertex(begin), first_vertex(end));
         update_multipliers(task, body);
-        if (model_.obstacles && model_.obstacles->have_friction()) {
+        if (model_.obstacles) {
             task.reads(*model_.previous, first_vertex(begin), first_vertex(end));
         }
     }
 
     void update_multipliers(Step::Adding& task, const TaskBody& body) {
-        for (std::size_t kind = 0; kind < multipliers_.size(); ++kind) {
-            for (const auto& buffer : multipliers_[kind]) {
-                task.updates(*buffer, body.launches[kind].segments);
+        for (std::size_t f = 0; f < multipliers_.size(); ++f) {
+            for (const auto& buffer : multipliers_[f]) {
+                task.updates(*buffer, body.launches[f].segments);
             }
         }
     }
 
     Model& model_;
-    std::vector<Multipliers> multipliers_;  ///< [kinds of elements that there are]
+    std::vector<Multipliers> multipliers_;  ///< [families] as the model's
     TaskBody predict_, velocities_;
     TaskBody seams_[2], strips_[2];  ///< [fresh]
 };

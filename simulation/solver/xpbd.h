@@ -7,8 +7,7 @@ namespace weft {
 /// Extended position based dynamics (Macklin, Mueller and Chentanez 2016) on strips and seams.
 ///
 /// A substep: predict, then `iterations` times
-///   seams:  all elements between two strips; springs, membranes, tetrahedra, hinges, each kind
-///           colour by colour
+///   seams:  all elements between two strips, family by family, each colour by colour
 ///   strips: all elements inside a strip likewise, then obstacles, so that an iteration ends
 ///           without penetration
 /// then velocities. This order is the same for every number of devices: it defines the result.

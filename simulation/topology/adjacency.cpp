@@ -1,9 +1,10 @@
 #include "simulation/topology/adjacency.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
+
+#include "scheduler/assert.h"
 
 namespace weft {
 namespace {
@@ -47,7 +48,7 @@ Sides collect_sides(int vertex_count, std::span<const int> triangles) {
     result.begin.assign(static_cast<std::size_t>(vertex_count) + 2, 0);
     int count = 0;
     for_each_side(triangles, [&](int low, [[maybe_unused]] const Side& side) {
-        assert(low >= 0 && side.high < vertex_count);
+        WEFT_ASSERT(low >= 0 && side.high < vertex_count);
         ++result.begin[low + 2];
         ++count;
     });
@@ -75,7 +76,7 @@ void append_hinge(int low, const Side& first, const Side& second, Stencils& hing
 }  // namespace
 
 Adjacency find_adjacency(int vertex_count, std::span<const int> triangles) {
-    assert(triangles.size() % 3 == 0);
+    WEFT_ASSERT(triangles.size() % 3 == 0);
     const auto [begin, sides] = collect_sides(vertex_count, triangles);
     Adjacency result{.edges = {.arity = 2, .vertices = {}}, .hinges = {.arity = 4, .vertices = {}}};
     result.edges.vertices.reserve(sides.size() + sides.size() / 8);

@@ -1,9 +1,9 @@
 #include "simulation/topology/layout.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 
+#include "scheduler/assert.h"
 #include "simulation/topology/colouring.h"
 
 namespace weft {
@@ -48,7 +48,7 @@ std::vector<Place> find_places(const Stencils& kind, const Strips& strips) {
     std::vector<Place> places(static_cast<std::size_t>(kind.count()));
     for (int e = 0; e < kind.count(); ++e) {
         const auto [low, high] = std::ranges::minmax(kind[e]);
-        assert(strip_of[high] - strip_of[low] <= 1);
+        WEFT_ASSERT(strip_of[high] - strip_of[low] <= 1);
         places[e] = {strip_of[low], strip_of[low] == strip_of[high] ? kInnerPhase : kSeamPhase};
     }
     return places;
@@ -124,6 +124,8 @@ ElementLayout make_layout(const Stencils& kind, const Strips& strips) {
     layout.order = sort_into_segments(places, colour, layout);
     layout.stencils = reorder(sorted, layout.order);
     for (int& e : layout.order) e = by_vertex[e];
+    WEFT_ASSERT(std::ranges::is_sorted(layout.segment_begin));
+    WEFT_ASSERT(layout.segment_begin.back() == kind.count());
     return layout;
 }
 

@@ -22,7 +22,7 @@ public:
             for (const int element : candidates[f].order) {
                 const std::span<const int> vertices = candidates[f].elements[element];
                 const bool fits = std::all_of(vertices.begin(), vertices.end(), [&](int v) {
-                    return groups_.is_alone(v) && places[v] == places[vertices[0]];
+                    return groups_.is_single(v) && places[v] == places[vertices[0]];
                 });
                 if (!fits) continue;
                 groups_.unite(vertices);
@@ -35,7 +35,7 @@ public:
 
     // Of the stencil that a leader stands for.
     std::size_t family(int leader) const { return static_cast<std::size_t>(family_[leader]); }
-    /// That of the vertex, if it is alone.
+    /// That of the vertex, if it is single.
     int element(int leader) const { return element_[leader]; }
     int corner(int leader, std::size_t number) const {
         if (family(leader) == candidates_.size()) return leader;

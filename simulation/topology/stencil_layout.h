@@ -14,19 +14,19 @@ struct StencilCandidates {
     std::vector<int> order;
 };
 
-/// Stencils as items: the vertices of an element that are computed together, and vertices that are
-/// alone. Stencils of one phase and colour share no element.
+/// Stencils as items: the vertices of an element that are computed together, and single
+/// vertices. Stencils of one phase and colour share no element.
 struct StencilLayout {
     /// The stencils of one kind of element, by the items' segments.
     struct Family {
         int arity = 1;
-        std::vector<int> elements;       ///< [stencils]; of those that are alone, the vertex
-        std::vector<int> segment_begin;  ///< [segment_count() + 1] of the stencils
+        std::vector<int> elements;                ///< [stencils]; of single ones, the vertex
+        std::vector<int> segment_begin;           ///< [segment_count() + 1] of the stencils
         std::vector<std::array<int, 4>> corners;  ///< [stencils] the items of the first `arity`
     };
     /// Every vertex once. In each segment family by family, corner by corner.
     VertexLayout items;
-    std::vector<Family> families;  ///< as the candidates; the last one: vertices that are alone
+    std::vector<Family> families;  ///< as the candidates; the last one: single vertices
 };
 
 /// Puts as many vertices into stencils as it can, and colours and sorts these. All vertices of a

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 
+#include "scheduler/assert.h"
 #include "simulation/topology/vertex_order.h"
 
 namespace weft {
@@ -178,6 +180,27 @@ std::vector<int> Cutter::best_cuts() const {
     return positions;
 }
 
+/// Whether order and rank undo each other, and every strip has vertices.
+[[maybe_unused]] bool is_partition(const Strips& strips) {
+    const int count = static_cast<int>(strips.order.size());
+    for (int v = 0; v < count; ++v) {
+        if (strips.rank[strips.order[v]] != v) return false;
+    }
+    const auto& begin = strips.begin;
+    return begin.front() == 0 && begin.back() == count &&
+           std::ranges::is_sorted(begin, std::ranges::less_equal());
+}
+
+/// Whether the hull of seam s lies within strips s and s + 1, and behind that of seam s - 1.
+[[maybe_unused]] bool seams_are_apart(const Strips& strips) {
+    for (int s = 0; s < strips.seam_count(); ++s) {
+        const int first = strips.seam_begin[s], last = strips.seam_end[s];
+        if (first > last || first < strips.begin[s] || last > strips.begin[s + 2]) return false;
+        if (s > 0 && first < strips.seam_end[s - 1]) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 int Strips::strip_of(int vertex) const {
@@ -200,6 +223,8 @@ Strips make_strips(int vertex_count, std::span<const Stencils> kinds, const Stri
         strips.seam_begin.push_back(table.hull_begin[strips.begin[s]]);
         strips.seam_end.push_back(table.hull_end[strips.begin[s]]);
     }
+    WEFT_ASSERT(is_partition(strips));
+    WEFT_ASSERT(seams_are_apart(strips));
     return strips;
 }
 

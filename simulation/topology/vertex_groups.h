@@ -37,7 +37,7 @@ public:
             leader_[vertices[k]] = lowest;
         }
     }
-    bool is_alone(int vertex) const { return next_[vertex] == vertex; }
+    bool is_single(int vertex) const { return next_[vertex] == vertex; }
     /// The lowest vertex of the group.
     int leader(int vertex) const { return leader_[vertex]; }
     bool leads(int vertex) const { return leader_[vertex] == vertex; }

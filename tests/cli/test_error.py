@@ -93,6 +93,7 @@ def test_curves_start_at_one_and_stay_above_the_minimum(folder):
         assert min(errors) > 0.0, "no solver is below the minimum"
         assert errors[-1] < 0.05
         assert all(time > 0.0 for time in times[1:])
+        assert times == sorted(times), "no curve runs back in time"
     energies = {key: [row["energy"] for row in curve] for key, curve in curves.items()}
     for solver in {key[0] for key in curves}:
         own = [value for key, value in energies.items() if key[0] == solver]
@@ -208,7 +209,7 @@ def test_picture_shows_every_point(folder):
     (["--frame", "-1"], ["--frame -1"]),
     (["--solvers", "xpdb"], ["xpdb", "xpbd"]),
     (["--plans", "exakt"], ["exakt"]),
-    (["--devices", "gpu/1"], ["gpu/1"]),
+    (["--devices", "gpx/1"], ["gpx/1"]),
     (["--max-iterations", "0"], ["--max-iterations 0"]),
 ])
 def test_wrong_requests(folder, arguments, parts):

@@ -81,6 +81,8 @@ def test_mixture(tmp_path, more):
         for name, _, y, _ in panel:
             assert rows.index(y) == first + device[int(name.split()[0])]
     # Lengths are times, on one scale for both panels.
+    plan["start"] *= frame["pace"]
+    plan["end"] *= frame["pace"]
     scale = max(width for _, _, _, width in planned) / (plan["end"] - plan["start"]).max()
     for panel, table in [(planned, plan), (measured, runs)]:
         times = {int(row["task"]): row["end"] - row["start"] for row in table}
@@ -96,6 +98,7 @@ def test_mixture(tmp_path, more):
     said = texts(picture)
     assert "sheet: frame 4, substep 1" in said
     assert f"planned: {1e3 * plan['end'].max():.3f} ms" in said
+    assert plan["end"].max() == pytest.approx(frame["planned_makespan"] / 2)
     span = runs["end"].max() - runs["start"].min()
     assert (f"measured: {1e3 * span:.3f} ms from the first start to the last end; "
             f"{1e3 * frame['measured_makespan'] / 2:.3f} ms per substep") in said
@@ -179,7 +182,7 @@ def test_bad_traces(tmp_path):
     (["--substep", "-1"], "--substep"),
     (["--frame", "x"], "--frame"),
     (["--out", "picture.jpg"], "--out picture.jpg: expected a name that ends in .svg or .png"),
-    (["--out", "none/picture.svg"], "none/picture.svg: cannot be written"),
+    (["--out", "none/picture.svg"], "none/picture.svg: cannot write: No such file"),
 ])
 def test_bad_requests(tmp_path, arguments, part):
     result = weft("trace", "gantt", made_up(tmp_path).name, *arguments, cwd=tmp_path)

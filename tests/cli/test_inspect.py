@@ -74,12 +74,12 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert {"bending", "obstacles", "friction", "pins", "moving pins", "damping"} <= set(left_out)
     assert left_out["bending"]["kernels"] == [
-        "gather_bending", "gather_bending_forces", "hinge_terms", "project_hinges"]
+        "gather_bending", "gather_bending_gradients", "hinge_terms", "project_hinges"]
     assert left_out["solids"]["kernels"] == [
-        "gather_tetrahedra", "gather_tetrahedra_forces", "project_tetrahedra",
+        "gather_tetrahedra", "gather_tetrahedra_gradients", "project_tetrahedra",
         "solve_tetrahedron_stencils", "tetrahedron_terms"]
     assert left_out["membranes"]["kernels"] == [
-        "gather_membrane_forces", "gather_membranes", "membrane_terms", "project_membranes",
+        "gather_membrane_gradients", "gather_membranes", "membrane_terms", "project_membranes",
         "solve_membrane_stencils"]
     assert "attachments" in left_out
     assert left_out["moving pins"]["kernels"] == ["move_pins"]
@@ -104,7 +104,7 @@ def test_solids_alone_need_nothing_of_cloth(inspect):
     assert not [name for name in buffers if name.startswith(("springs", "membranes", "hinges"))]
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert left_out["springs"]["kernels"] == [
-        "gather_spring_forces", "gather_springs", "project_springs", "solve_spring_stencils",
+        "gather_spring_gradients", "gather_springs", "project_springs", "solve_spring_stencils",
         "spring_terms"]
     energies = next(d for d in found["datasets"] if d["name"] == "energies")
     assert energies["columns"] == ["frame", "kinetic", "gravity", "solid", "total"]

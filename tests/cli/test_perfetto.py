@@ -133,6 +133,16 @@ def expect_same_as_trace(events, path, frames=None):
     assert [c["measured_ms"] for c in counters] == list(1e3 * tables["frames"]["measured_makespan"])
     frames_seen = [e for e in events["X"] if e["cat"] == "frame"]
     assert [e["args"]["frame"] for e in frames_seen] == list(tables["frames"]["frame"])
+    parts = collections.defaultdict(list)
+    for event in events["X"]:
+        if event["cat"] == "part":
+            parts[event["args"]["frame"]].append(event)
+    for event in frames_seen:
+        own = parts[event["args"]["frame"]]
+        seen = [e["name"] for e in own]
+        assert seen == [part for part in ["placing", "planning", "executing", "checking",
+                                          "learning", "measuring", "output"] if part in seen]
+        assert sum(e["dur"] for e in own) == pytest.approx(event["dur"], abs=0.1)
     names = {e["tid"]: e["args"]["name"] for e in events["M"] if e["name"] == "thread_name"}
     assert names[0] == "frames" and all(names[1 + d].startswith(f"{d} ") for d in range(devices))
     copies = [e for e in events["X"] if e["cat"] == "transfer"]
@@ -222,7 +232,7 @@ def test_bad_places(tmp_path):
     path = made_up(tmp_path)
     for place in ["none/out.json", "."]:
         result = weft("trace", "perfetto", path.name, "--out", place, cwd=tmp_path)
-        expect_error(result, 2, f"{place}: cannot be written")
+        expect_error(result, 2, f"{place}: cannot write")
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")

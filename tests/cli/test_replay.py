@@ -152,7 +152,7 @@ def test_devices_that_are_not_here(tmp_path):
     expect_error(weft("replay", trace, env=nothing), 2, "trace.h5: was recorded on", "opencl",
                  "--device LIST")
     expect_equal(trace, "--device", "cpu/1", env=nothing)
-    expect_error(weft("replay", trace, "--device", "gpu"), 2, "'gpu'")
+    expect_error(weft("replay", trace, "--device", "gpx"), 2, "'gpx'")
 
 
 def test_name_that_stands_for_other_devices_here(tmp_path):

@@ -107,6 +107,30 @@ def test_other_devices_may_go_on_without_a_trace(folder):
     assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]
 
 
+def test_every_third_frame_goes_on(folder):
+    (folder / "scene.toml").write_text(SCENE + "\n[output]\nevery = 3\n")
+    interrupt(folder, signal.SIGKILL, 8)
+    assert run(folder, "--resume").returncode == 0
+    assert run(folder, "--out", "out/whole").returncode == 0
+    for a, b in zip(positions(folder / "out/whole/frames.vtkhdf"),
+                    positions(folder / "out/sheet/frames.vtkhdf")):
+        assert numpy.array_equal(a, b)
+
+
+@pytest.mark.parametrize("device, rows", [("cpu/1", 1), ("cpu/2", 2)])
+def test_without_a_trace_the_summary_is_of_the_whole_run(folder, device, rows):
+    interrupt(folder, signal.SIGINT, 6)
+    before = summary_of(folder)
+    assert run(folder, "--resume", "--no-trace", device=device).returncode == 0
+    whole = summary_of(folder)
+    assert whole["frames"] == FRAMES
+    assert whole["simulated_s"] == pytest.approx(FRAMES * 0.02)
+    assert whole["wall_s"] > before["wall_s"]
+    assert len(whole["devices"]) == rows  # the one that was left has one, too
+    assert (sum(d["busy_s"] for d in whole["devices"]) >
+            sum(d["busy_s"] for d in before["devices"]) > 0)
+
+
 def test_another_scene_cannot_go_on(folder):
     interrupt(folder, signal.SIGINT, 6)
     expect_error(run(folder, "--resume", "--set", "scene.gravity=[0, -1, 0]"), 2, "checkpoint",

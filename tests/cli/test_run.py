@@ -2,6 +2,7 @@
 
 import json
 import os
+import platform
 import pty
 import signal
 import subprocess
@@ -9,7 +10,7 @@ import subprocess
 import h5py
 import numpy
 import pytest
-from weft_program import LONG, SHEET, WEFT, expect_error, start_weft, wait_for_frames, weft
+from weft_program import CORES, LONG, SHEET, WEFT, expect_error, start_weft, wait_for_frames, weft
 from weft_program import weft_json
 
 
@@ -63,6 +64,86 @@ def test_json_is_all_of_stdout_and_quiet_is_quiet(folder):
     result = run(folder, "--json", "--quiet")
     assert result.stderr == ""
     assert json.loads(result.stdout) == json.loads((folder / "out/sheet/summary.json").read_text())
+
+
+@pytest.mark.parametrize("every, steps", [(1, 8), (2, 4), (3, 3), (7, 2), (100, 1)])
+def test_every_nth_frame_is_written(folder, every, steps):
+    assert run(folder, "--frames", "7", "--set", f"output.every={every}", "--set",
+               "output.compression=small").returncode == 0
+    assert run(folder, "--frames", "7", "--out", "out/all").returncode == 0
+    chosen = geometry_steps(folder / "out/sheet/frames.vtkhdf")
+    assert len(chosen) == steps
+    assert numpy.array_equal(chosen, geometry_steps(folder / "out/all/frames.vtkhdf")[::every])
+    with h5py.File(folder / "out/sheet/frames.vtkhdf") as file:
+        times = file["VTKHDF/Steps/Values"][:]
+    assert times == pytest.approx(0.02 * every * numpy.arange(steps))
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        assert len(trace["frames"]) == 7  # the trace has all of them
+
+
+@pytest.mark.parametrize("value, said", [("every=0", "at least 1"), ("every=1.5", "an integer"),
+                                         ("compression=gzip", "none, fast, small")])
+def test_what_output_cannot_be(folder, value, said):
+    expect_error(run(folder, "--set", f"output.{value}"), 2, "output." + value.split("=")[0], said)
+
+
+def test_records_explain_themselves(folder):
+    summary = weft_json("run", "scene.toml", "--device", "cpu/1", "--solver", "vbd", "--set",
+                        "cloth.density=0.5", "--substeps", "10", cwd=folder)
+    assert " run scene.toml --device cpu/1" in summary["command"]
+    assert summary["settings"]["method"] == "vbd" and summary["settings"]["devices"] == "cpu/1"
+    assert summary["settings"]["set"].splitlines() == ["cloth.density=0.5", "solver.method=vbd", "scene.substeps=10"]
+    assert summary["host"]["name"] == platform.node() and summary["host"]["cpu"]
+    assert int(summary["host"]["cores"]) == CORES
+    assert {"weft", "compiler", "tbb", "hdf5", "eigen", "fmt"} <= set(summary["versions"])
+    assert summary["warnings"] == []
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        for group in ["settings", "host", "versions"]:
+            assert dict(trace["run"][group].attrs) == summary[group]
+        assert trace["run"].attrs["command"] == summary["command"]
+        assert (trace["frames"]["pace"] > 0).all()
+
+
+def test_warnings_stand_in_the_summary(folder):
+    (folder / "two.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 5 5\nf 1 3 2\n")
+    (folder / "scene.toml").write_text(SHEET.replace(
+        "grid = { size = [1.0, 1.0], resolution = [12, 12] }", 'mesh = "two.obj"'))
+    result = run(folder, "--json")
+    said = [line.removeprefix("weft: warning: ") for line in result.stderr.splitlines()
+            if line.startswith("weft: warning: ")]
+    assert said and json.loads(result.stdout)["warnings"] == said
+
+
+PARTS = ["place_time", "plan_time", "execute_time", "check_time", "learn_time", "measure_time",
+         "output_time"]
+
+
+def test_clocks_tell_the_whole_time(folder):
+    """Frames follow each other without a gap, and their parts leave nothing out."""
+    summary = weft_json("run", "scene.toml", "--device", "cpu/1", "--frames", "9", cwd=folder)
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        frames = trace["frames"][:]
+        executions = trace["executions"][:]
+    wall = frames["end"] - frames["start"]
+    assert (frames["start"][1:] == frames["end"][:-1]).all()
+    assert sum(frames[part] for part in PARTS) == pytest.approx(wall, abs=1e-9)
+    assert all((frames[part] > 0).all() for part in PARTS)
+    assert (frames["measured_makespan"] <= frames["execute_time"]).all()
+    for frame in frames:
+        own = executions[executions["frame"] == frame["frame"]]
+        assert frame["start"] < own["start"].min() and own["end"].max() < frame["end"]
+    assert summary["ms_per_frame"] == pytest.approx(1e3 * sorted(wall)[4])
+    assert summary["wall_s"] == pytest.approx(wall.sum())
+    assert summary["measured_ms"] < summary["ms_per_frame"]
+    assert list(summary["parts_ms"]) == ["placing", "planning", "executing", "checking", "learning",
+                                         "measuring", "output"]
+
+
+def test_leaving_out_the_trace_leaves_out_what_only_it_needs(folder):
+    whole = weft_json("run", "scene.toml", "--device", "cpu/1", cwd=folder)
+    bare = weft_json("run", "scene.toml", "--device", "cpu/1", "--no-trace", "--force", cwd=folder)
+    for key in ["energy", "energies", "state_hash", "frames", "simulated_s"]:
+        assert bare[key] == whole[key]
 
 
 def test_schema_needs_no_scene():
@@ -181,3 +262,26 @@ def test_progress_is_a_bar_on_a_terminal(folder):
 def test_fast_math_runs(folder):
     summary = weft_json("run", "scene.toml", "--math", "fast", "--device", "cpu/1", cwd=folder)
     assert summary["finished"]
+
+
+def test_energy_from_nowhere_is_told(folder):
+    (folder / "scene.toml").write_text("""
+[scene]
+frames = 40
+dt = 0.016666667
+substeps = 22
+[solver]
+method = "jpgd"
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [64, 64] }
+density = 0.2
+stretch = { stiffness = 1.0e4 }
+pins = { corners = ["x-z-", "x+z-"] }
+""")
+    command = ["run", "scene.toml", "--device", "cpu/1", "--no-geometry", "--json", "--force"]
+    wild = weft(*command, cwd=folder)
+    assert wild.returncode == 0 and "warning: energy from nowhere" in wild.stderr
+    assert "energy from nowhere" in json.loads(wild.stdout)["warnings"][0]
+    believable = weft(*command, "--solver", "vbd", cwd=folder)
+    assert "warning" not in believable.stderr
+    assert json.loads(believable.stdout)["warnings"] == []

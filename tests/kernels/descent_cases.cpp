@@ -1,11 +1,10 @@
-#include "kernels/descent/gather_bending.h"
-#include "kernels/descent/gather_forces.h"
-#include "kernels/descent/gather_membranes.h"
-#include "kernels/descent/gather_springs.h"
-#include "kernels/descent/gather_tetrahedra.h"
+#include "kernels/descent/hinges.h"
+#include "kernels/descent/membranes.h"
+#include "kernels/descent/springs.h"
 #include "kernels/descent/substep.h"
-#include "kernels/sosd/alone.h"
+#include "kernels/descent/tetrahedra.h"
 #include "kernels/sosd/membranes.h"
+#include "kernels/sosd/single_vertices.h"
 #include "kernels/sosd/springs.h"
 #include "kernels/sosd/tetrahedra.h"
 #include "kernels/vbd/solve.h"
@@ -92,7 +91,7 @@ void spring_forces_case(KernelCase& c) {
     auto& others = add_others(c, vertices);
     auto& material = add_reals(c, "material", 2 * kRow * c.items, 0.0f, 2.0f);
     auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
-    c.launch = launch(kernels::gather_spring_forces, c.segments, positions, vertices, slices,
+    c.launch = launch(kernels::gather_spring_gradients, c.segments, positions, vertices, slices,
                       others, material, sums, c.items, kRow * c.items, c.items, c.items % 2);
 }
 
@@ -103,7 +102,7 @@ void bending_forces_case(KernelCase& c) {
     auto& others = add_others(c, vertices);
     auto& weights = add_reals(c, "weights", kRow * c.items, -1.0f, 1.0f);
     auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
-    c.launch = launch(kernels::gather_bending_forces, c.segments, positions, vertices, slices,
+    c.launch = launch(kernels::gather_bending_gradients, c.segments, positions, vertices, slices,
                       others, weights, sums, c.items, c.items, c.items % 2);
 }
 
@@ -124,9 +123,11 @@ void elastic_case(KernelCase& c, Kernel kernel, int others_per_entry, int shape_
 void tetrahedra_case(KernelCase& c) { elastic_case(c, kernels::gather_tetrahedra, 3, 9); }
 void membranes_case(KernelCase& c) { elastic_case(c, kernels::gather_membranes, 2, 4); }
 void tetrahedra_forces_case(KernelCase& c) {
-    elastic_case(c, kernels::gather_tetrahedra_forces, 3, 9);
+    elastic_case(c, kernels::gather_tetrahedra_gradients, 3, 9);
 }
-void membrane_forces_case(KernelCase& c) { elastic_case(c, kernels::gather_membrane_forces, 2, 4); }
+void membrane_forces_case(KernelCase& c) {
+    elastic_case(c, kernels::gather_membrane_gradients, 2, 4);
+}
 
 void solve_case(KernelCase& c) {
     auto& positions = add_positions(c);
@@ -173,7 +174,7 @@ void stencils_case(KernelCase& c, Kernel kernel, int corner_count, Tables... tab
                       c.items, items, 1e2f);
 }
 
-void lone_case(KernelCase& c) { stencils_case(c, kernels::solve_lone_vertices, 1); }
+void single_case(KernelCase& c) { stencils_case(c, kernels::solve_single_vertices, 1); }
 
 Buffer<float>& add_material(KernelCase& c) {
     return add_reals(c, "material", 2 * c.items, 0.0f, 2.0f);
@@ -231,13 +232,13 @@ void push_case(KernelCase& c) {
 
 const bool added =
     add_case("gather_springs", springs_case) && add_case("gather_bending", bending_case) &&
-    add_case("gather_spring_forces", spring_forces_case) &&
-    add_case("gather_bending_forces", bending_forces_case) &&
+    add_case("gather_spring_gradients", spring_forces_case) &&
+    add_case("gather_bending_gradients", bending_forces_case) &&
     add_case("gather_tetrahedra", tetrahedra_case) &&
     add_case("gather_membranes", membranes_case) &&
-    add_case("gather_tetrahedra_forces", tetrahedra_forces_case) &&
-    add_case("gather_membrane_forces", membrane_forces_case) &&
-    add_case("solve_vertices", solve_case) && add_case("solve_lone_vertices", lone_case) &&
+    add_case("gather_tetrahedra_gradients", tetrahedra_forces_case) &&
+    add_case("gather_membrane_gradients", membrane_forces_case) &&
+    add_case("solve_vertices", solve_case) && add_case("solve_single_vertices", single_case) &&
     add_case("solve_spring_stencils", spring_stencils_case) &&
     add_case("solve_membrane_stencils", membrane_stencils_case) &&
     add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&

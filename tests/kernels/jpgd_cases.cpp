@@ -1,4 +1,8 @@
 #include "kernels/descent/energy_terms.h"
+#include "kernels/descent/hinges.h"
+#include "kernels/descent/membranes.h"
+#include "kernels/descent/springs.h"
+#include "kernels/descent/tetrahedra.h"
 #include "kernels/jpgd/control.h"
 #include "kernels/jpgd/step.h"
 #include "tests/kernels/kernel_case.h"

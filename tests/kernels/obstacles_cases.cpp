@@ -28,7 +28,8 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
             rows[1] = rows[4] = {0.0f, 1.0f, 0.0f, 0.0f};
         }
         rows[6] = {0.5f, 0.25f, 0.5f, 0.0f};
-        rows[7] = {0.01f, 0.3f, 0.0f, 0.0f};
+        const bool is_swept = c.flavour != Flavour::kRandom || i % 2 == 1;
+        rows[7] = {0.01f, 0.3f, is_swept ? 1.0f : 0.0f, 0.0f};
     }
 }
 
@@ -45,7 +46,7 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
             const auto pick = [&] { return special[c.random.integer(0, 5)]; };
             positions[v] = {pick(), pick(), pick(), 0.0f};
         }
-        const float moved = c.flavour == Flavour::kRandom ? 0.02f : 0.0f;
+        const float moved = c.flavour == Flavour::kRandom ? 0.9f : 0.0f;
         const float4 way = c.random.point(moved);
         const float4& x = positions[v];
         previous[v] = {x.x + way.x, x.y + way.y, x.z + way.z, 0.0f};
@@ -61,8 +62,8 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
     c.launch.kernel = &kernel;
     c.launch.segments = c.segments;
     c.launch.arguments.push_back({&positions});
-    if (kernel.name.starts_with("rub_on_")) c.launch.arguments.push_back({&previous});
-    c.launch.arguments.insert(c.launch.arguments.end(), {{&obstacles}, count, which, substep});
+    c.launch.arguments.insert(c.launch.arguments.end(),
+                              {{&previous}, {&obstacles}, count, which, substep});
 }
 
 }  // namespace

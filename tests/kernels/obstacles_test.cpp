@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -14,6 +15,7 @@ namespace weft::test {
 namespace {
 
 constexpr float kThickness = 0.125f;
+constexpr double kThicknessOf = static_cast<double>(kThickness);
 constexpr float kFriction = 0.5f;
 
 Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
@@ -38,7 +40,7 @@ struct Contact {
     }
     template <class Kernel>
     Vec3 push(Kernel kernel) {
-        return run(launch(kernel, Segments{}, positions, rows, 1, 0, 0));
+        return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
     }
     template <class Kernel>
     Vec3 rub(Kernel kernel) {
@@ -152,6 +154,79 @@ TEST(Obstacles, PlacementTurnsAndMovesTheShape) {
     contact.rows[0] = {0, 1, 0, 0};
     contact.rows[1] = {-1, 0, 0, 2};
     expect_at(contact.push(kernels::push_out_of_box), {2.0, 1.125, 0});
+}
+
+/// The signed distance in double precision, from the definition.
+double distance_from_box(Vec3 p, Vec3 half) {
+    const Vec3 q{std::abs(p.x) - half.x, std::abs(p.y) - half.y, std::abs(p.z) - half.z};
+    const Vec3 out{std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)};
+    const double inside = std::max({q.x, q.y, q.z});
+    return inside < 0.0 ? inside : length(out);
+}
+
+/// The least distance on the straight way between two points, by brute force.
+template <class Distance>
+double least_on_way(Vec3 start, Vec3 end, Distance distance) {
+    double least = distance(start);
+    for (int k = 1; k <= 2000; ++k) {
+        least = std::min(least, distance(start + (k / 2000.0) * (end - start)));
+    }
+    return least;
+}
+
+/// Random ways, from outside an obstacle to anywhere: what misses it stays to the bit, and whatever
+/// meets it ends where the way from its start is free.
+template <class Kernel, class Distance>
+void expect_swept(Kernel kernel, float4 dimensions, Distance distance) {
+    Random random(11);
+    int missed = 0;
+    int met = 0;
+    for (int k = 0; k < 400; ++k) {
+        const Vec3 start = vec(random.point(1.5f));
+        if (distance(start) < kThicknessOf) continue;
+        const Vec3 end = vec(random.point(1.5f));
+        Contact contact(end, dimensions);
+        contact.rows[7].z = 1.0f;
+        contact.previous[0] = {static_cast<float>(start.x), static_cast<float>(start.y),
+                               static_cast<float>(start.z), 0.0f};
+        const Vec3 pushed = contact.push(kernel);
+        const double least = least_on_way(start, end, distance) - kThicknessOf;
+        if (least > 1e-2) {
+            ++missed;
+            expect_at(pushed, end, 2e-6);
+        }
+        if (least < -1e-2) ++met;
+        EXPECT_GT(least_on_way(start, pushed, distance), kThicknessOf - 1e-5) << "way " << k;
+    }
+    EXPECT_GT(missed, 50);
+    EXPECT_GT(met, 50);
+}
+
+TEST(Obstacles, SweptOnesAreNeverPassed) {
+    expect_swept(kernels::push_out_of_sphere, {0.5f, 0, 0, 0},
+                 [](Vec3 p) { return length(p) - 0.5; });
+    expect_swept(kernels::push_out_of_capsule, {0.25f, 1.0f, 0, 0}, [](Vec3 p) {
+        return length(Vec3{p.x, p.y - std::clamp(p.y, -1.0, 1.0), p.z}) - 0.25;
+    });
+    expect_swept(kernels::push_out_of_box, {1.0f, 0.01f, 1.5f, 0}, [](Vec3 p) {
+        return distance_from_box(p, {1.0, static_cast<double>(0.01f), 1.5});
+    });
+    expect_swept(kernels::push_out_of_plane, {}, [](Vec3 p) { return p.y; });
+}
+
+TEST(Obstacles, SweptSphereThatFliesThroughAVertexTakesItAlong) {
+    // From y = 50 to y = -50, past a vertex at rest half a radius beside its way: the tangent plane
+    // of the first contact goes with the sphere.
+    Contact contact({0.25, 0.0, 0.0}, {0.5f, 0, 0, 0});
+    contact.rows[1].w = 50.0f;
+    contact.rows[4].w = 50.0f;
+    contact.rows[7] = {0.0f, 0.0f, 1.0f, 0.0f};
+    const Vec3 x = contact.push(kernels::push_out_of_sphere);
+    const Vec3 normal{0.5, -std::sqrt(0.75), 0.0};
+    const Vec3 centre{0.0, -50.0, 0.0};
+    EXPECT_NEAR(dot(x - centre, normal), 0.5, 1e-4);
+    EXPECT_GE(length(x - centre), 0.5 - 1e-4);
+    EXPECT_NEAR(length(cross(x - Vec3{0.25, 0.0, 0.0}, normal)), 0.0, 1e-4);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
@@ -29,7 +32,8 @@ TEST(DeviceList, EveryMistakeIsAnErrorThatNamesIt) {
         {"+", "''"},
         {"cpu/1+", "''"},
         {"+cpu/1", "''"},
-        {"gpu", "'gpu'"},
+        {"gpu:0", "'gpu:0'"},
+        {"gpu/0", "'gpu/0'"},
         {"CPU", "'CPU'"},
         {" cpu", "' cpu'"},
         {"cpu,opencl", "'cpu,opencl'"},
@@ -42,12 +46,12 @@ TEST(DeviceList, EveryMistakeIsAnErrorThatNamesIt) {
         {"cpu/1.5", "'1.5'"},
         {"cpu/1/2", "'1/2'"},
         {"cpu/99999999999", "'99999999999'"},
-        {"cpu/1+gpu", "'gpu'"},
+        {"cpu/1+gpus", "'gpus'"},
         {"hybrid/2", "'hybrid/2'"},
         {"hybrid:0", "'hybrid:0'"},
         {"opencl:", "'opencl:'"},
         {"opencl:-1", "'-1'"},
-        {"opencl:x/1", "'x'"},
+        {"opencl:nonesuch/1", "'opencl:nonesuch/1'"},
         {"opencl/1:0", "'1:0'"},
         {"opencl:0/", "'opencl:0/'"},
         {"opencl:0/0", "'opencl:0/0'"},
@@ -111,6 +115,32 @@ TEST(DeviceList, OptionsOverruleWhatADeviceSaysOfItself) {
     EXPECT_TRUE(devices.front()->info().strict);
     options.strict_math = false;
     EXPECT_FALSE(open_devices("opencl:0", options).front()->info().strict);
+}
+
+TEST(DeviceList, OpenClDevicesHaveNamesAndKinds) {
+    const auto devices = opencl_devices();
+    if (devices.empty()) GTEST_SKIP() << "no OpenCL platform";
+    const auto upper = [](std::string text) {
+        for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+        return text;
+    };
+    const std::string platform = upper(devices.front().platform.substr(0, 6));
+    EXPECT_EQ(open_devices("opencl:" + platform + "/1").front()->info().units, 1);
+    const bool has_gpu = std::ranges::any_of(devices, &OpenClDeviceSummary::is_gpu);
+    const std::string message = error_of("gpu");
+    EXPECT_EQ(message.empty(), has_gpu);
+    if (!has_gpu) {
+        EXPECT_NE(message.find(devices.front().name), std::string::npos) << message;
+    }
+}
+
+TEST(DeviceList, IsCheckedWithoutLookingForDevices) {
+    for (const char* list : {"cpu", "gpu", "opencl:9", "opencl:nonesuch/2", "hybrid", "cpu/999"}) {
+        EXPECT_NO_THROW(check_device_list(list)) << list;
+    }
+    for (const char* list : {"", "cpux", "cpu/0", "hybrid/2"}) {
+        EXPECT_THROW(check_device_list(list), UserError) << list;
+    }
 }
 
 }  // namespace

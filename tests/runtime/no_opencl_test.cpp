@@ -32,7 +32,7 @@ TEST(NoOpenCl, IsTouchedForACpu) {
         const Step step = tasks.make_step(random, 10);
         executor.run(step, random_plan(step, 1, random), 2);
     }
-    EXPECT_THROW(open_devices("gpu"), std::exception);
+    EXPECT_THROW(open_devices("gpx"), std::exception);
     EXPECT_EQ(platform_queries, 0);
 }
 

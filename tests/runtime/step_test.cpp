@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 namespace weft::test {
 namespace {
@@ -62,6 +63,51 @@ TEST(Step, BytesAreWhatIsReadOfWhatWasWritten) {
     ASSERT_EQ(a.step.dependencies().size(), 2U);
     EXPECT_EQ(a.step.dependencies()[0].bytes, 6.0 * sizeof(float));
     EXPECT_EQ(a.step.dependencies()[1].bytes, 0.0);
+}
+
+TEST(Step, RefusesRangesOutsideOfTheBuffer) {
+    Accesses a;
+    EXPECT_THROW(a.add().reads(*a.buffers[0], -1, 5), std::logic_error);
+    EXPECT_THROW(a.add().updates(*a.buffers[0], 90, 101), std::logic_error);
+    EXPECT_NO_THROW(a.add().updates(*a.buffers[0], 90, 100));
+    EXPECT_NO_THROW(a.add().updates(*a.buffers[0], 200, 200)) << "nothing is nowhere";
+
+    Buffer<int> begin("begin", 4);
+    const Segments table{&begin, 0, 1, 3};
+    for (int strip = 0; strip <= 3; ++strip) begin[static_cast<std::size_t>(strip)] = 40 * strip;
+    const auto updates = [&](int first, int end) {
+        a.step.add(a.body, 0, first, end, 0).updates(*a.buffers[0], table);
+    };
+    a.body.launches.clear();
+    EXPECT_NO_THROW(updates(0, 2));
+    EXPECT_THROW(updates(2, 3), std::logic_error) << "items 80 to 120 of 100";
+    EXPECT_THROW(updates(3, 4), std::logic_error) << "a strip that is not there";
+}
+
+TEST(Step, RefusesUnitsThatCannotBeCompared) {
+    Buffer<int> begin("begin", 8), other("other", 4);
+    for (int i = 0; i < 4; ++i) {
+        begin[static_cast<std::size_t>(i)] = other[static_cast<std::size_t>(i)] = 10 * i;
+        begin[static_cast<std::size_t>(4 + i)] = 30 + 10 * i;
+    }
+    const Segments first{&begin, 0, 1, 3}, behind{&begin, 4, 1, 3}, across{&begin, 2, 1, 3};
+    const Segments elsewhere{&other, 0, 1, 3};
+    const auto seal_with = [](const Segments& one, const Segments* two) {
+        Accesses a;
+        a.step.add(a.body, 0, 0, 3, 0).updates(*a.buffers[0], one);
+        if (two != nullptr)
+            a.step.add(a.body, 0, 0, 3, 0).updates(*a.buffers[0], *two);
+        else
+            a.step.add(a.body, 0, 0, 3, 0).reads(*a.buffers[0], 0, 3);
+        a.step.seal();
+        return a.step.dependencies().size();
+    };
+    EXPECT_EQ(seal_with(first, &behind), 0U);
+    const Segments copy = first;
+    EXPECT_EQ(seal_with(first, &copy), 1U) << "a table is where it lies, not who tells of it";
+    EXPECT_THROW(seal_with(first, &across), std::logic_error);
+    EXPECT_THROW(seal_with(first, &elsewhere), std::logic_error);
+    EXPECT_THROW(seal_with(first, nullptr), std::logic_error) << "strips and elements";
 }
 
 TEST(Step, SegmentsOfOneBufferAreDifferentTables) {

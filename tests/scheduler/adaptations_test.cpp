@@ -1,4 +1,4 @@
-// What the paper adds to HEFT: merging, the Gauss-Seidel rank, grouping; and re-planning.
+// What the paper adds to HEFT: merging, the Gauss-Seidel rank, the window of iterations.
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,10 @@
 #include <map>
 
 #include "graphs.h"
-#include "scheduler/grouping.h"
 #include "scheduler/heft.h"
 #include "scheduler/iteration_window.h"
 #include "scheduler/merging.h"
 #include "scheduler/ranks.h"
-#include "scheduler/replan.h"
 
 namespace weft::scheduler::test {
 namespace {
@@ -230,81 +228,6 @@ TEST(GaussSeidelRank, RefusesIterationsThatGoBack) {
     graph.seal();
     std::vector<double> rank;
     EXPECT_THROW(GaussSeidelRank()(graph, rank), GraphError);
-}
-
-TEST(Grouping, CutsWhereAnotherProcessorWaitsOrIsWaitedFor) {
-    TaskGraph graph(2);
-    const std::vector cpu{1.0, kCannotRun}, gpu{kCannotRun, 1.0};
-    for (int i = 0; i < 5; ++i) graph.add_task(cpu);
-    graph.add_task(gpu);
-    for (TaskId t = 0; t < 4; ++t) graph.add_edge(t, t + 1, 0.0);
-    graph.add_edge(1, 5, 2.0);  // the GPU waits for the second task ...
-    graph.add_edge(5, 4, 2.0);  // ... and the last task for the GPU
-    graph.seal();
-    Plan plan;
-    Heft().plan(graph, plan);
-    TaskGrouping grouping;
-    grouping.group(graph, plan);
-    ASSERT_EQ(grouping.groups().size(), 4u);  // {0 1} {2 3} {4} on the CPU, {5} on the GPU
-    EXPECT_EQ(grouping.group_of()[0], grouping.group_of()[1]);
-    EXPECT_EQ(grouping.group_of()[2], grouping.group_of()[3]);
-    EXPECT_NE(grouping.group_of()[3], grouping.group_of()[4]);
-    EXPECT_EQ(grouping.makespan(), plan.makespan);
-
-    // 2 tasks and 2 launches before the GPU, and so on along the path that waits for it.
-    const std::vector launch{0.25, 0.5};
-    grouping.group(graph, plan, launch);
-    EXPECT_EQ(grouping.makespan(), (0.25 + 2.0) + 2.0 + (0.5 + 1.0) + 2.0 + (0.25 + 1.0));
-}
-
-TEST(Grouping, PredictsThePlansOwnTimesWithoutLaunches) {
-    TaskGrouping grouping;
-    Plan plan;
-    Heft heft;
-    for (std::uint32_t seed = 0; seed < 100; ++seed) {
-        const TaskGraph graph =
-            random_graph({.tasks = 30, .processors = 3, .integers = true, .zero_share = 0.3}, seed);
-        heft.plan(graph, plan);
-        grouping.group(graph, plan);
-        EXPECT_EQ(grouping.makespan(), plan.makespan) << seed;
-        std::size_t tasks = 0;
-        for (const TaskGroup& group : grouping.groups()) tasks += group.end - group.begin;
-        EXPECT_EQ(tasks, graph.task_count());
-    }
-}
-
-TEST(Replan, LeavesOutWhatIsDoneAndTheLostProcessor) {
-    const TaskGraph graph = random_graph({.tasks = 20, .processors = 3}, 4);
-    Plan plan;
-    Heft heft;
-    heft.plan(graph, plan);
-    std::vector<bool> done(graph.task_count());
-    for (TaskId t = 0; t < graph.task_count(); ++t) {
-        done[t] = plan.placements[t].end <= 0.5 * plan.makespan;
-    }
-    TaskGraph left;
-    std::vector<TaskId> original_of;
-    remaining_graph(graph, done, 1, left, original_of);
-    ASSERT_EQ(left.task_count(), original_of.size());
-    heft.plan(left, plan);
-    EXPECT_EQ(complaint(left, plan), "");
-    for (TaskId t = 0; t < left.task_count(); ++t) {
-        EXPECT_NE(plan.placements[t].processor, 1u);
-        EXPECT_FALSE(done[original_of[t]]);
-    }
-}
-
-TEST(Replan, SaysWhichTaskNobodyElseCanRun) {
-    TaskGraph graph(2), left;
-    graph.add_task(std::vector{1.0, kCannotRun}, {.name = "collide"});
-    graph.seal();
-    std::vector<TaskId> original_of;
-    try {
-        remaining_graph(graph, {false}, 0, left, original_of);
-        FAIL();
-    } catch (const GraphError& error) {
-        EXPECT_STREQ(error.what(), "task collide: no processor can run it");
-    }
 }
 
 }  // namespace

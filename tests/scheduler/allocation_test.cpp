@@ -7,7 +7,6 @@
 
 #include "graphs.h"
 #include "scheduler/cost_model.h"
-#include "scheduler/grouping.h"
 #include "scheduler/merging.h"
 #include "scheduler/planner.h"
 #include "scheduler/portfolio.h"
@@ -74,18 +73,16 @@ TEST(SteadyState, PlannersDoNotAllocate) {
     EXPECT_EQ(0u, allocations_of_a_later_frame([&] { gauss_seidel.plan(graph, plan); }));
 }
 
-TEST(SteadyState, MergingAndGroupingDoNotAllocate) {
+TEST(SteadyState, MergingDoesNotAllocate) {
     const TaskGraph source = random_graph({.tasks = 60, .processors = 2}, 1);
     TaskGraph graph, merged;
     rebuild(graph, source);
     TaskMerger merger;
-    TaskGrouping grouping;
     Heft heft;
     Plan plan;
     EXPECT_EQ(0u, allocations_of_a_later_frame([&] {
                   merger.merge(graph, 30.0, merged);
                   heft.plan(merged, plan);
-                  grouping.group(merged, plan);
               }));
 }
 

@@ -103,6 +103,7 @@ void execute(const Shape& shape, FrameRecord& record, double plan_makespan) {
     }
     record.end = substep_start;
     record.measured_makespan = record.end - record.start - record.plan_time;
+    record.execute_time = record.measured_makespan;
 }
 
 }  // namespace
@@ -113,6 +114,7 @@ RunDescription describe(const Shape& shape) {
     run.scene_path = "/somewhere/synthetic.toml";
     run.scene_text = "[scene]\nname = \"synthetic\"  # with a non-ASCII word: Köper\n";
     run.command = "weft run synthetic.toml --device cpu/1+opencl:0/1";
+    run.host = {{"name", "loom"}, {"cpu", "AMD EPYC"}};
     run.versions = {{"weft", "0.1.0"}};
     run.settings = {{"plan", "exact"}, {"substeps", std::to_string(shape.substeps)}};
     run.devices = {{"AMD EPYC", "tbb", "", 1, "host", true},
@@ -137,6 +139,12 @@ FrameRecord frame(const Shape& shape, std::uint32_t number) {
     record.planner = "in-order";
     record.graph = std::make_shared<const GraphRecord>(
         GraphRecord{number % 3, {maker.cut(), kStrips - maker.cut()}, maker.dependencies});
+    record.pace = 1.0 + 0.125 * number;
+    record.place_time = 1e-6 * number;
+    record.check_time = 2e-6 * number;
+    record.learn_time = 3e-6 * number;
+    record.measure_time = 4e-6 * number;
+    record.output_time = 5e-6 * number;
     record.links = {{0, 1, kLatency, kInfinite}, {1, 0, kLatency, kInfinite}};
     record.state_hash = std::string(31, 'a') + static_cast<char>('0' + number % 10);
     execute(shape, record, maker.makespan());

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import signal
 import subprocess
 
@@ -86,6 +87,19 @@ def test_every_column_is_documented(finished):
                 generic = "busy_0" if column.startswith("busy_") else column
                 generic = "ENERGY" if column in file["run/energies"].asstr()[:] else generic
                 assert f"| `{generic}`" in section, f"{table}.{column}"
+
+
+def test_units_are_those_of_the_documents(finished):
+    text = (ROOT / "docs" / "trace-format.md").read_text()
+    with h5py.File(finished) as file:
+        for table in TABLES:
+            section = text.split(f"### `{table}`")[1].split("\n##")[0]
+            rows = [line.split("|") for line in section.splitlines() if line.startswith("| `")]
+            units = {name: row[2].strip() for row in rows for name in re.findall("`(\\w+)`", row[1])}
+            assert len(file[table].attrs["units"]) == len(file[table].dtype.names)
+            for column, unit in zip(file[table].dtype.names, file[table].attrs["units"]):
+                generic = "ENERGY" if column in file["run/energies"].asstr()[:] else column
+                assert unit == units[generic], f"{table}.{column}"
 
 
 def test_running_trace_can_be_followed(tmp_path):

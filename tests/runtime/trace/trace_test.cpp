@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "runtime/error.h"
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/hdf5.h"
 #include "runtime/trace/trace_reader.h"
 #include "runtime/trace/trace_writer.h"
 #include "tests/runtime/trace/synthetic_run.h"
@@ -62,6 +62,7 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(reader.run().kinds, run.kinds);
     EXPECT_EQ(reader.run().energies, run.energies);
     EXPECT_EQ(reader.run().settings, run.settings);
+    EXPECT_EQ(TextPairs(reader.run().host.rbegin(), reader.run().host.rend()), run.host);
     ASSERT_EQ(reader.run().devices.size(), 2U);
     EXPECT_EQ(reader.run().devices[1].driver, "PoCL 3.1");
     EXPECT_EQ(reader.run().devices[1].units, 1U);
@@ -74,6 +75,10 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.sim_time, expected.sim_time);
     EXPECT_EQ(frame.end, expected.end);
     EXPECT_EQ(frame.planned_makespan, expected.planned_makespan);
+    EXPECT_EQ(frame.pace, expected.pace);
+    for (const FramePart& part : kFrameParts) {
+        EXPECT_EQ(frame.*part.time, expected.*part.time) << part.name;
+    }
     EXPECT_EQ(frame.transferred_bytes, expected.transferred_bytes);
     EXPECT_EQ(frame.busy, expected.busy);
     EXPECT_EQ(frame.gravity_energy, expected.gravity_energy);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kText =
     "# cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\ng a\n"
-    "f 1/1/1 3/2/1 2/3/1\nf 1 4 3\nf 5 6 7\nf 5 7 8\ng b\nf -8 -7 -3\nf 1 6 5\nf 2//1 3//1 7//1\n";
+    "f 1/1/1 3/2/1 2/3/1\nf 1 4 3\nf 5 6 7\nf 5 7 8\ng b\nf -8 -7 -3\nf 1 6 5\nf 2//1 3//1 7//1\nf "
+    "1 2 3 4\no c\nf 5 6 7 8 4\n";
 
 const char* const kPieces[] = {"-1", "0",  "1e999", "nan", "/",  "\n",          "f ", "v ",
                                "\\", "\t", "#",     "-",   "e-", "99999999999", " 2"};

@@ -49,7 +49,8 @@ TEST(TetReader, GoesByTheEndingOfTheName) {
     };
     EXPECT_EQ(read("no/such.msh"), "no/such.msh: no such mesh file");
     EXPECT_EQ(read("shirt.obj"),
-              "shirt.obj: a solid's mesh must be a Gmsh (.msh) or legacy VTK (.vtk) file");
+              "shirt.obj: OBJ is not read here: a solid's mesh must be a Gmsh (.msh) or legacy VTK "
+              "(.vtk) file");
     const std::string empty = testing::TempDir() + "weft_empty.msh";
     std::ofstream(empty) << "";
     EXPECT_EQ(read(empty), empty + ": is empty, expected a Gmsh mesh");

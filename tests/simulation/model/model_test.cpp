@@ -1,10 +1,13 @@
 #include "simulation/model/model.h"
+#include "simulation/families/hinges/hinges.h"
+#include "simulation/families/springs/springs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
+#include "simulation/families/hinges/hinge_shape.h"
 #include "simulation/scene/read_scene.h"
 
 namespace weft::test {
@@ -37,7 +40,7 @@ double cylinder_energy(int resolution, double radius) {
         bent.push_back(to_float4(
             {radius * std::sin(angle), radius * std::cos(angle), static_cast<double>(flat.z)}));
     }
-    return model.hinges->energy(bent) * radius * radius;
+    return model.find<Hinges>()->total_energy(bent) * radius * radius;
 }
 
 /// Only the edges along the axis bend, by t = 1 / ((n - 1) R) to each side:
@@ -59,7 +62,8 @@ TEST(Hinges, FlatSheetAnywhereHasNoEnergy) {
     scene.cloths[0].transform.rotations = {{{1.0, 2.0, 3.0}, 50.0}};
     scene.cloths[0].transform.translate = {1.0, -2.0, 0.5};
     const Model model(scene, warnings);
-    EXPECT_LT(model.hinges->energy(model.positions->span()), 1e-6);  // of 1 J * curvature^2 * area
+    EXPECT_LT(model.find<Hinges>()->total_energy(model.positions->span()),
+              1e-6);  // of 1 J * curvature^2 * area
 }
 
 TEST(Hinges, WeightsSumToZeroAndIgnoreAffineMaps) {
@@ -85,7 +89,7 @@ TEST(Model, HasNothingThatTheSceneDoesNotName) {
     Scene scene = sheet(5, 5);
     scene.cloths[0].bend.reset();
     const Model model(scene, warnings);
-    EXPECT_EQ(model.hinges, nullptr);
+    EXPECT_EQ(model.find<Hinges>(), nullptr);
     EXPECT_EQ(model.moving_pins, nullptr);
     EXPECT_EQ(model.obstacles, nullptr);
     EXPECT_FALSE(model.damped);
@@ -106,12 +110,12 @@ TEST(Model, PinsAreHeldAndOnlyMovingOnesHaveATable) {
 TEST(Model, SpringsKnowTheirMaterial) {
     Warnings warnings;
     const Model model(sheet(6, 9), warnings);
-    for (int s = 0; s < model.springs->elements.count(); ++s) {
-        const auto ends = model.springs->elements.vertices_of(s);
+    for (int s = 0; s < model.find<Springs>()->elements().count(); ++s) {
+        const auto ends = model.find<Springs>()->elements().vertices_of(s);
         const Vec3 along = to_vec3((*model.positions)[static_cast<std::size_t>(ends[0])]) -
                            to_vec3((*model.positions)[static_cast<std::size_t>(ends[1])]);
-        EXPECT_NEAR(model.springs->rest_length(s), length(along), 1e-6);
-        EXPECT_NEAR(model.springs->stiffness(s), 1.0e4, 1e-2);
+        EXPECT_NEAR(model.find<Springs>()->rest_length(s), length(along), 1e-6);
+        EXPECT_NEAR(model.find<Springs>()->stiffness(s), 1.0e4, 1e-2);
     }
 }
 

@@ -5,7 +5,11 @@
 #include <cmath>
 
 #include "runtime/error.h"
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
+#include "simulation/families/hinges/hinges.h"
+#include "simulation/families/membranes/membranes.h"
+#include "simulation/families/springs/springs.h"
+#include "simulation/families/tetrahedra/tetrahedra.h"
 #include "simulation/model/model.h"
 #include "simulation/scene/read_scene.h"
 
@@ -90,9 +94,10 @@ TEST(SolidModel, EnergyOfAUniformDeformationIsThatOfTheMaterial) {
     const double expected =
         0.25 * (0.5 * mu * (norm - 3.0) - mu * (J - 1.0) + 0.5 * lambda * (J - 1.0) * (J - 1.0));
     const auto x = mapped(built.model, map);
-    EXPECT_NEAR(built.model.tetrahedra->energy(x), expected, 1e-5 * expected);
-    EXPECT_NEAR(built.model.tetrahedra->stretch(0, x), std::sqrt(norm / 3.0), 1e-5);
-    EXPECT_LT(built.model.tetrahedra->energy(built.model.positions->span()), 1e-6 * expected);
+    EXPECT_NEAR(built.model.find<Tetrahedra>()->total_energy(x), expected, 1e-5 * expected);
+    EXPECT_NEAR(built.model.find<Tetrahedra>()->stretch(0, x), std::sqrt(norm / 3.0), 1e-5);
+    EXPECT_LT(built.model.find<Tetrahedra>()->total_energy(built.model.positions->span()),
+              1e-6 * expected);
 }
 
 TEST(MembraneModel, EnergyOfAUniformDeformationIsThatOfTheMaterial) {
@@ -107,19 +112,19 @@ TEST(MembraneModel, EnergyOfAUniformDeformationIsThatOfTheMaterial) {
     const double expected =
         0.5 * (0.5 * mu * (norm - 2.0) - mu * (J - 1.0) + 0.5 * lambda * (J - 1.0) * (J - 1.0));
     const auto x = mapped(built.model, map);
-    EXPECT_NEAR(built.model.membranes->energy(x), expected, 1e-5 * expected);
-    EXPECT_NEAR(built.model.membranes->stretch(0, x), std::sqrt(norm / 2.0), 1e-5);
+    EXPECT_NEAR(built.model.find<Membranes>()->total_energy(x), expected, 1e-5 * expected);
+    EXPECT_NEAR(built.model.find<Membranes>()->stretch(0, x), std::sqrt(norm / 2.0), 1e-5);
 }
 
 TEST(AttachmentModel, TiesSelectedVerticesToTheNearestOnes) {
     const Built built;
-    const Springs& springs = *built.model.springs;
-    ASSERT_EQ(springs.elements.count(), 2) << "a membrane needs no springs";
+    const Springs& springs = *built.model.find<Springs>();
+    ASSERT_EQ(springs.elements().count(), 2) << "a membrane needs no springs";
     for (int s = 0; s < 2; ++s) {
         EXPECT_FALSE(springs.is_edge(s));
         EXPECT_NEAR(springs.rest_length(s), 0.0, 1e-12);
         EXPECT_NEAR(springs.stiffness(s), 30.0, 1e-5);
-        const auto ends = springs.elements.vertices_of(s);
+        const auto ends = springs.elements().vertices_of(s);
         const Vec3 a = to_vec3((*built.model.positions)[static_cast<std::size_t>(ends[0])]);
         const Vec3 b = to_vec3((*built.model.positions)[static_cast<std::size_t>(ends[1])]);
         EXPECT_LT(length(a - b), 1e-6);
@@ -136,10 +141,10 @@ TEST(AttachmentModel, IsLimitedByItsReach) {
     attachment.reach = 0.2;  // it lies 0.2 above, and no vertex is straight below
     EXPECT_THROW(Built{scene}, UserError);
     attachment.reach = 0.21;
-    EXPECT_EQ(Built(scene).model.springs->elements.count(), 1);
-    EXPECT_NEAR(Built(scene).model.springs->rest_length(0), std::hypot(0.2, 0.05), 1e-6);
+    EXPECT_EQ(Built(scene).model.find<Springs>()->elements().count(), 1);
+    EXPECT_NEAR(Built(scene).model.find<Springs>()->rest_length(0), std::hypot(0.2, 0.05), 1e-6);
     attachment.reach = 0.251;
-    EXPECT_EQ(Built(scene).model.springs->elements.count(), 2);
+    EXPECT_EQ(Built(scene).model.find<Springs>()->elements().count(), 2);
 }
 
 TEST(AttachmentModel, FindsTheNearestOfAllVertices) {
@@ -149,9 +154,9 @@ TEST(AttachmentModel, FindsTheNearestOfAllVertices) {
     for (int v = 0; v < 24; ++v) scene.attachments[0].selected.vertices.push_back(v);
     const Built built(scene);
     const Model& model = built.model;
-    ASSERT_EQ(model.springs->elements.count(), 24);
+    ASSERT_EQ(model.find<Springs>()->elements().count(), 24);
     for (int s = 0; s < 24; ++s) {
-        const auto ends = model.springs->elements.vertices_of(s);
+        const auto ends = model.find<Springs>()->elements().vertices_of(s);
         double least = 1e9;
         for (std::size_t v = 0; v < model.positions->count(); ++v) {
             if (model.strips.order[v] < 24) continue;
@@ -159,7 +164,7 @@ TEST(AttachmentModel, FindsTheNearestOfAllVertices) {
                              to_vec3((*model.positions)[static_cast<std::size_t>(ends[0])]);
             least = std::min(least, length(way));
         }
-        EXPECT_NEAR(model.springs->rest_length(s), least, 1e-6);
+        EXPECT_NEAR(model.find<Springs>()->rest_length(s), least, 1e-6);
     }
 }
 
@@ -168,10 +173,10 @@ TEST(SolidModel, HasNothingThatTheSceneDoesNotName) {
     scene.cloths.clear();
     scene.attachments.clear();
     const Built solid(scene);
-    EXPECT_NE(solid.model.tetrahedra, nullptr);
-    EXPECT_EQ(solid.model.springs, nullptr);
-    EXPECT_EQ(solid.model.membranes, nullptr);
-    EXPECT_EQ(solid.model.hinges, nullptr);
+    EXPECT_NE(solid.model.find<Tetrahedra>(), nullptr);
+    EXPECT_EQ(solid.model.find<Springs>(), nullptr);
+    EXPECT_EQ(solid.model.find<Membranes>(), nullptr);
+    EXPECT_EQ(solid.model.find<Hinges>(), nullptr);
 }
 
 }  // namespace

@@ -50,11 +50,12 @@ int main(int argc, char** argv) {
     const std::uint32_t steps = static_cast<std::uint32_t>(std::atoi(argv[2]));
     const std::uint32_t grid = static_cast<std::uint32_t>(std::atoi(argv[3]));
     const int pause = argc > 4 ? std::atoi(argv[4]) : 0;
+    const auto compression = weft::compression_named(argc > 5 ? argv[5] : "fast");
     const std::vector<Triangle> triangles = squares(grid);
     const auto half = static_cast<std::uint32_t>(triangles.size() / 2);
 
     weft::GeometryWriter writer(argv[1], triangles, 2 * grid * grid,
-                                {{"lower", half}, {"upper & <last>", half}}, steps);
+                                {{"lower", half}, {"upper & <last>", half}}, steps, compression);
     for (std::uint32_t step = 0; step < steps; ++step) {
         const double time = step / 60.0;
         writer.append(time, positions(grid, time));

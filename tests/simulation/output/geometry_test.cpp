@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -10,7 +11,8 @@
 #include <random>
 
 #include "runtime/error.h"
-#include "runtime/trace/hdf5.h"
+#include "runtime/io/hdf5.h"
+#include "simulation/output/geometry_reader.h"
 
 namespace weft {
 namespace {
@@ -63,6 +65,41 @@ TEST_F(Geometry, FilesAreWholeAfterEveryStep) {
     writer.finish();
     EXPECT_EQ(steps(), 5);
     EXPECT_NE(xdmf().find("frames.vtkhdf:/weft/positions_4"), std::string::npos);
+}
+
+/// Of every kind: as noise, as a smooth sheet, and at rest; fewer and more bytes than a block of
+/// deflate has.
+std::vector<std::vector<float>> samples(std::size_t vertices) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> uniform(-1e3F, 1e3F);
+    std::vector<std::vector<float>> samples(3, std::vector<float>(3 * vertices));
+    for (float& value : samples[0]) value = uniform(random);
+    for (std::size_t i = 0; i < samples[1].size(); ++i)
+        samples[1][i] = std::sin(1e-3F * static_cast<float>(i));
+    return samples;
+}
+
+TEST_F(Geometry, EveryCompressionReadsBackTheSame) {
+    const std::vector<Triangle> triangle{{0, 0, 0}};
+    for (const std::size_t vertices : {1U, 7U, 10922U, 10923U, 50000U}) {
+        const auto written = samples(vertices);
+        std::vector<std::uintmax_t> sizes;
+        for (const std::string& name : compression_names()) {
+            GeometryWriter writer(path_, triangle, vertices, {{"body", 1}}, written.size(),
+                                  compression_named(name));
+            for (std::size_t i = 0; i < written.size(); ++i)
+                writer.append(static_cast<double>(i), written[i]);
+            writer.finish();
+            const GeometryReader reader(path_);
+            ASSERT_EQ(reader.steps(), written.size());
+            for (std::size_t i = 0; i < written.size(); ++i)
+                EXPECT_EQ(reader.positions(i), written[i]) << name << ", step " << i;
+            sizes.push_back(std::filesystem::file_size(path_));
+        }
+        if (vertices < 10000U) continue;
+        EXPECT_GT(sizes[0], sizes[1]);
+        EXPECT_GT(sizes[1], sizes[2]);
+    }
 }
 
 TEST_F(Geometry, ReplacesOldFiles) {

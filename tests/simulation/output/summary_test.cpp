@@ -31,6 +31,7 @@ FrameRecord frame(std::uint32_t i) {
     frame.planned_makespan = 1.0e-3 * (i + 1);
     frame.lower_bound = 0.5e-3 * (i + 1);
     frame.plan_time = 10e-6;
+    frame.execute_time = 0.95e-3 * (i + 1);
     frame.transferred_bytes = 1000;
     frame.busy = {1.1e-3 * (i + 1), 0.55e-3 * (i + 1)};
     frame.kinetic_energy = 3.0;
@@ -64,6 +65,41 @@ TEST(Summary, CountsOverFrames) {
     EXPECT_DOUBLE_EQ(summary.energies.back().second, 2.5);
 }
 
+TEST(Summary, GoesOnFromWhatWasSaved) {
+    SummaryBuilder first(two_devices());
+    for (std::uint32_t i = 0; i < 8; ++i) first.add(frame(i));
+    SummaryBuilder second(two_devices());
+    second.restore(first.save());
+    EXPECT_EQ(second.end(), first.end());
+    for (std::uint32_t i = 8; i < 20; ++i) second.add(frame(i));
+    RunSummary summary = second.summary();
+    summary.state_hash = "00ff";
+    summary.files = {{"trace", "out/sheet/trace.h5"}};
+    EXPECT_EQ(to_json(summary), to_json(twenty_frames()));
+}
+
+TEST(Summary, KeepsTheRowsOfDevicesThatAreGone) {
+    SummaryBuilder first(two_devices());
+    first.add(frame(0));
+    RunDescription other = two_devices();
+    other.devices = {{"GPU", "opencl", "", 4, "host", true}};
+    SummaryBuilder second(other);
+    second.restore(first.save());
+    const RunSummary summary = second.summary();
+    ASSERT_EQ(summary.devices.size(), 2U);
+    EXPECT_EQ(summary.devices[0].name, "GPU");
+    EXPECT_DOUBLE_EQ(summary.devices[0].busy, 0.55e-3);
+    EXPECT_EQ(summary.devices[1].name, "CPU");
+    EXPECT_DOUBLE_EQ(summary.devices[1].busy, 1.1e-3);
+}
+
+TEST(Summary, WhatWasNotSavedByOneIsRefused) {
+    std::vector<std::uint8_t> saved = SummaryBuilder(two_devices()).save();
+    saved.pop_back();
+    EXPECT_THROW(SummaryBuilder(two_devices()).restore(saved), UserError);
+    EXPECT_THROW(SummaryBuilder(two_devices()).restore({}), UserError);
+}
+
 TEST(Summary, JsonHasTheKeysOfTheContract) {
     const auto json = to_json(twenty_frames());
     for (const char* key :
@@ -72,6 +108,8 @@ TEST(Summary, JsonHasTheKeysOfTheContract) {
         EXPECT_TRUE(json.contains(key)) << key;
     }
     EXPECT_NEAR(json["plan_us"].get<double>(), 10.0, 1e-9);
+    EXPECT_NEAR(json["parts_ms"]["planning"].get<double>(), 0.01, 1e-12);
+    EXPECT_NEAR(json["parts_ms"]["executing"].get<double>(), 9.5, 1e-12);
     EXPECT_EQ(json["state_hash"], "00ff");
 }
 

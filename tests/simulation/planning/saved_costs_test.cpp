@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <thread>
 
 namespace weft::test {
 namespace {
@@ -94,6 +95,25 @@ TEST_F(SavedCostsTest, KeepsWhatOtherRunsHaveWritten) {
     EXPECT_TRUE(restore(devices(), next_));
     body_.name = "predict";
     EXPECT_TRUE(restore(devices(), next_));
+}
+
+TEST_F(SavedCostsTest, RunsThatEndTogetherLoseNothing) {
+    constexpr int kRuns = 16;
+    std::vector<TaskBody> bodies;
+    for (int i = 0; i < kRuns; ++i) bodies.push_back({"kind " + std::to_string(i), 0, {}});
+    {
+        std::vector<std::jthread> runs;
+        for (const TaskBody& body : bodies) {
+            runs.emplace_back([&] {
+                const std::vector<const TaskBody*> own{&body};
+                SavedCosts(file_).save(own, devices(), true, learnt_);
+            });
+        }
+    }
+    for (const TaskBody& body : bodies) {
+        const std::vector<const TaskBody*> own{&body};
+        EXPECT_TRUE(SavedCosts(file_).restore(own, devices(), true, next_)) << body.name;
+    }
 }
 
 TEST_F(SavedCostsTest, AMissingOrDamagedFileIsAnEmptyOne) {

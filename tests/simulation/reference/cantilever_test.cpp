@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "simulation/reference/newton.h"
 #include "simulation/scene/read_scene.h"
 

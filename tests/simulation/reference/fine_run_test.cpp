@@ -1,11 +1,12 @@
 // The reference of whole runs against closed forms and against the solvers.
 #include "simulation/reference/fine_run.h"
+#include "simulation/families/springs/springs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "simulation/simulation.h"
 #include "tests/simulation/reference/problems.h"
 
@@ -44,10 +45,10 @@ TEST(FineRun, SpringSwingsAsTheClosedFormSays) {
     Warnings warnings;
     Model model(scene, warnings);
     // Only the springs along z are to pull.
-    const int count = model.springs->elements.count();
+    const int count = model.find<Springs>()->elements().count();
     for (int s = 0; s < count; ++s) {
-        if (std::abs(model.springs->rest_length(s) - 1.0) > 1e-3) {
-            model.springs->material[static_cast<std::size_t>(count + s)] = 1e30f;
+        if (std::abs(model.find<Springs>()->rest_length(s) - 1.0) > 1e-3) {
+            model.find<Springs>()->material[static_cast<std::size_t>(count + s)] = 1e30f;
         }
     }
     int free = 0;

@@ -1,8 +1,10 @@
 #include "simulation/reference/newton.h"
+#include "simulation/families/hinges/hinges.h"
+#include "simulation/families/springs/springs.h"
 
 #include <gtest/gtest.h>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "tests/simulation/reference/problems.h"
 
 namespace weft::test {
@@ -101,10 +103,10 @@ TEST(Newton, SolvesStiffMaterialAndLongSteps) {
 
 /// Springs of no stiffness are as good as none: so a sheet becomes chains.
 void cut_all_springs_but_those_along(Model& model, double Vec3::*axis) {
-    Springs& springs = *model.springs;
-    const int count = springs.elements.count();
+    Springs& springs = *model.find<Springs>();
+    const int count = springs.elements().count();
     for (int s = 0; s < count; ++s) {
-        const auto ends = springs.elements.vertices_of(s);
+        const auto ends = springs.elements().vertices_of(s);
         const Vec3 along = to_vec3((*model.positions)[static_cast<std::size_t>(ends[0])]) -
                            to_vec3((*model.positions)[static_cast<std::size_t>(ends[1])]);
         if (std::abs(along.*axis) > 0.99 * length(along)) continue;
@@ -166,7 +168,7 @@ TEST(Energies, CylinderOfASheetTendsToTheContinuum) {
             const Vec3 x = to_vec3(flat);
             bent.push_back({radius * std::sin(x.x / radius), radius * std::cos(x.x / radius), x.z});
         }
-        const ElementEnergies& hinges = *problem.potential.elements()[1];
+        const Hinges& hinges = *problem.model.find<Hinges>();
         double energy = 0.0;
         for (int h = 0; h < hinges.count(); ++h) {
             std::array<Vec3, 4> corners;

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "simulation/reference/incremental_potential.h"
 #include "tests/simulation/reference/problems.h"
 
@@ -39,7 +39,8 @@ auto derivative(const Function& f, std::vector<Vec3> x, std::size_t vertex, doub
 
 class Derivatives : public testing::TestWithParam<const std::string*> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Derivatives, testing::Values(&kPinnedSheet, &kPinnedBlock));
+INSTANTIATE_TEST_SUITE_P(Scenes, Derivatives,
+                         testing::Values(&kPinnedSheet, &kPinnedBlock, &kPinnedWeave));
 
 TEST_P(Derivatives, GradientIsTheDerivativeOfTheEnergy) {
     const Torn torn(*GetParam());

@@ -54,6 +54,20 @@ corners = ["x+z-", "x-z+"]
 stiffness = 1.0e3
 )";
 
+/// Woven cloth that hangs from a corner, its threads along neither side.
+inline const std::string kPinnedWeave = R"(
+[scene]
+frames = 1
+dt = 0.04
+substeps = 4
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [7, 8] }
+density = 0.2
+woven = { warp = 1.0e3, weft = 3.0e2, shear = 50.0, direction = [1.0, 0.0, 0.4] }
+bend = { stiffness = 1.0e-2 }
+pins = { corners = ["x-z-"] }
+)";
+
 /// x with every coordinate moved by up to `size` [m], the same with every standard library.
 inline std::vector<Vec3> shaken(std::vector<Vec3> x, double size, unsigned seed) {
     std::mt19937 engine(seed);

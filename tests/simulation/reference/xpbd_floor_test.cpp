@@ -4,7 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
+#include "simulation/families/springs/springs.h"
 #include "simulation/reference/newton.h"
 #include "tests/simulation/reference/problems.h"
 
@@ -15,11 +16,11 @@ namespace {
 class DoubleXpbd {
 public:
     DoubleXpbd(const Model& model, const IncrementalPotential& potential)
-        : springs_(*model.springs),
+        : springs_(*model.find<Springs>()),
           predicted_(potential.predicted()),
           x_(predicted_),
           forces_(x_.size()),
-          multipliers_(static_cast<std::size_t>(springs_.elements.count())) {
+          multipliers_(static_cast<std::size_t>(springs_.elements().count())) {
         for (const double inertia : potential.inertia()) {
             inverse_inertia_.push_back(inertia > 0.0 ? 1.0 / inertia : 0.0);
         }
@@ -30,14 +31,14 @@ public:
     /// constraints' gradients have not turned since their multipliers were made (section 4, below
     /// equation 10).
     void sweep(bool with_gradient) {
-        for (int s = 0; s < springs_.elements.count(); ++s) project(s, with_gradient);
+        for (int s = 0; s < springs_.elements().count(); ++s) project(s, with_gradient);
     }
     const std::vector<Vec3>& x() const { return x_; }
 
 private:
     // In units of force: multipliers [N], compliances 1/k [m/N], inverse inertia h^2/m [m/N].
     void project(int s, bool with_gradient) {
-        const auto ends = springs_.elements.vertices_of(s);
+        const auto ends = springs_.elements().vertices_of(s);
         const auto a = static_cast<std::size_t>(ends[0]);
         const auto b = static_cast<std::size_t>(ends[1]);
         double& multiplier = multipliers_[static_cast<std::size_t>(s)];
@@ -65,8 +66,8 @@ private:
     /// sum of grad C l, with the gradients where x is now.
     void update_forces() {
         std::fill(forces_.begin(), forces_.end(), Vec3{});
-        for (int s = 0; s < springs_.elements.count(); ++s) {
-            const auto ends = springs_.elements.vertices_of(s);
+        for (int s = 0; s < springs_.elements().count(); ++s) {
+            const auto ends = springs_.elements().vertices_of(s);
             const auto a = static_cast<std::size_t>(ends[0]);
             const auto b = static_cast<std::size_t>(ends[1]);
             const Vec3 along = x_[a] - x_[b];

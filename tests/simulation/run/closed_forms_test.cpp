@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
+#include "simulation/families/springs/springs.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/manual_run.h"
 
@@ -28,10 +29,10 @@ bend = { stiffness = 1.0e-3 }
 
 /// Springs of no stiffness are as good as none: so a sheet becomes chains along y.
 void cut_all_springs_but_upright_ones(ManualRun& run) {
-    Springs& springs = *run.model->springs;
-    const int count = springs.elements.count();
+    Springs& springs = *run.model->find<Springs>();
+    const int count = springs.count();
     for (int s = 0; s < count; ++s) {
-        const auto ends = springs.elements.vertices_of(s);
+        const auto ends = springs.corners(s);
         const Vec3 along = to_vec3((*run.model->positions)[static_cast<std::size_t>(ends[0])]) -
                            to_vec3((*run.model->positions)[static_cast<std::size_t>(ends[1])]);
         if (std::abs(along.y) > 0.99 * length(along)) continue;

@@ -27,16 +27,24 @@ struct TestScene {
 const TestScene kScenes[] = {
     {"Everything", kEverything, Method::kXpbd, "4f0878c76cf04b3783d0431c625fa8d1"},
     {"Solids", kSolids, Method::kXpbd, "af1bde7223d41abf5c09a61a217b4ee0"},
+    {"Sewn", kSewn, Method::kXpbd, "1d80823e05c1cf2d0236063db8cb22a1"},
     {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
-    {"VbdEverything", kEverything, Method::kVbd, "b193d13349f46ab2fbbb62ed54af3a9d"},
+    {"Woven", kWoven, Method::kXpbd, "6ed8bf3030d2df371b10659664f00039"},
+    {"VbdEverything", kEverything, Method::kVbd, "d8409bdc157414113ef4d7080b6d337d"},
     {"VbdSolids", kSolids, Method::kVbd, "806f7b6b2ccfcb25eb23bcbb08da7cf3"},
+    {"VbdSewn", kSewn, Method::kVbd, "f27d9c62dc11facf799efb994daafc4f"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
-    {"SosdEverything", kEverything, Method::kSosd, "dd50b25d1b82b1662d56144e38caedd9"},
+    {"VbdWoven", kWoven, Method::kVbd, "f6c35808291ea8c453bfb474677b1d57"},
+    {"SosdEverything", kEverything, Method::kSosd, "ed15a338b25fa86189688396c68e0c89"},
     {"SosdSolids", kSolids, Method::kSosd, "702bcf436c5866179943171afbf2c300"},
+    {"SosdSewn", kSewn, Method::kSosd, "3a597486338ef4b32e92494739bc0f2d"},
     {"SosdSpringsOnly", kSpringsOnly, Method::kSosd, "00dfd70c45689a281240dc02e561cdee"},
-    {"JpgdEverything", kEverything, Method::kJpgd, "aa5c5ac161d2559e254b7858af346d92"},
+    {"SosdWoven", kWoven, Method::kSosd, "8f4158e05daf8fde70339ca7f4cbaefc"},
+    {"JpgdEverything", kEverything, Method::kJpgd, "9cc6cd28f4f98f4183f5af399ff90d4f"},
     {"JpgdSolids", kSolids, Method::kJpgd, "2eff27821aa36236aa1f7929feebef52"},
+    {"JpgdSewn", kSewn, Method::kJpgd, "29a532d0429962e3af6782a14f6ce9df"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "a13e1511b92b2af4ffe5a76ee0a6380c"},
+    {"JpgdWoven", kWoven, Method::kJpgd, "ab96e64dc07efc4835bfc6ecf0b29142"},
 };
 
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {

@@ -58,22 +58,38 @@ void ManualRun::run_substeps(int substeps) {
 void ManualRun::run_frame(const Division& division, int substeps) {
     model->place(frame_ * model->scene.dt);
     for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
-    const Step step = solver->make_step(division.cuts());
-    executor_->run(step, plan_in_order(step, division), substeps);
-    executor_->fetch(*model->positions);
-    executor_->fetch(*model->velocities);
+    std::vector<std::vector<std::byte>> before;
+    for (BufferStorage* buffer : state()) {
+        const auto* bytes = static_cast<const std::byte*>(buffer->host());
+        before.emplace_back(bytes, bytes + buffer->bytes());
+    }
+    run_step(division, substeps);
+    if (redoes_frames && model->outran_obstacles()) {
+        for (std::size_t b = 0; b < before.size(); ++b) {
+            std::memcpy(state()[b]->host(), before[b].data(), before[b].size());
+            changed(*state()[b]);
+        }
+        for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
+        run_step(division, substeps);
+    }
     ++frame_;
 }
 
+void ManualRun::run_step(const Division& division, int substeps) {
+    const Step step = solver->make_step(division.cuts());
+    executor_->run(step, plan_in_order(step, division), substeps);
+    for (BufferStorage* buffer : state()) executor_->fetch(*buffer);
+}
+
+std::vector<BufferStorage*> ManualRun::state() {
+    std::vector<BufferStorage*> buffers = solver->state();
+    buffers.push_back(model->positions.get());
+    buffers.push_back(model->velocities.get());
+    return buffers;
+}
+
 std::vector<float> ManualRun::in_scene_order(const Buffer<float4>& buffer) const {
-    std::vector<float> values(3 * buffer.count());
-    for (std::size_t v = 0; v < buffer.count(); ++v) {
-        float* to = &values[3 * static_cast<std::size_t>(model->strips.order[v])];
-        to[0] = buffer[v].x;
-        to[1] = buffer[v].y;
-        to[2] = buffer[v].z;
-    }
-    return values;
+    return model->in_scene_order(buffer.span());
 }
 
 std::string ManualRun::hash() const {

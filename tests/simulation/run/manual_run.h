@@ -38,9 +38,13 @@ public:
 
     std::unique_ptr<Model> model;
     std::unique_ptr<Solver> solver;
+    /// As Simulation does where vertices outran the obstacles.
+    bool redoes_frames = true;
 
 private:
     void run_frame(const Division& division, int substeps);
+    void run_step(const Division& division, int substeps);
+    std::vector<BufferStorage*> state();
 
     std::vector<std::unique_ptr<Device>> devices_;
     std::unique_ptr<Executor> executor_;

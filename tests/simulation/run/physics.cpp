@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "simulation/scene/read_scene.h"
 
 namespace weft::test {

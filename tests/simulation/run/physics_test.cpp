@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/families/springs/springs.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -38,7 +39,7 @@ TEST_P(EverySolver, FreeFallIsExactWithAndWithoutDamping) {
             EXPECT_LT(length(at(positions(run), vertex) - at(start, vertex) - fall.x), 4e-5);
             EXPECT_LT(length(at(velocities(run), vertex) - fall.v), 2e-3);
         }
-        EXPECT_LT(run.model->springs->energy(run.model->positions->span()), 1e-8);
+        EXPECT_LT(run.model->find<Springs>()->total_energy(run.model->positions->span()), 1e-8);
     }
 }
 
@@ -113,14 +114,14 @@ TEST_P(EverySolver, EveryCutOfAHangingSheetCarriesTheWeightBelow) {
             if (is_below) weight += 9.81 * model.masses[static_cast<std::size_t>(v)];
         }
         const auto now = positions(run);
-        for (int s = 0; s < model.springs->elements.count(); ++s) {
-            const auto ends = model.springs->elements.vertices_of(s);
+        for (int s = 0; s < model.find<Springs>()->elements().count(); ++s) {
+            const auto ends = model.find<Springs>()->elements().vertices_of(s);
             const int a = model.strips.order[static_cast<std::size_t>(ends[0])];
             const int b = model.strips.order[static_cast<std::size_t>(ends[1])];
             if ((a >= row * kAcross) == (b >= row * kAcross)) continue;
             const Vec3 along = a < b ? at(now, a) - at(now, b) : at(now, b) - at(now, a);
-            const double stretch = length(along) - model.springs->rest_length(s);
-            force += model.springs->stiffness(s) * stretch * along.y / length(along);
+            const double stretch = length(along) - model.find<Springs>()->rest_length(s);
+            force += model.find<Springs>()->stiffness(s) * stretch * along.y / length(along);
         }
         EXPECT_NEAR(force, weight, 0.01 * weight) << "above row " << row;
     }
@@ -165,7 +166,7 @@ TEST_P(EverySolver, MassAndStiffnessScaledTogetherChangeNoBit) {
 TEST_P(EverySolver, MomentumOfInternalForcesIsConserved) {
     Scene scene = scene_of(kSheet);
     scene.gravity = {};
-    // XPBD's corrections conserve momentum one by one, a minimum of E as a whole.
+    // The angular momentum; the linear one needs no more than one iteration (free_bodies_test.cpp).
     if (GetParam() != Method::kXpbd) scene.solver.iterations = 200;
     ManualRun run(scene);
     auto& x = *run.model->positions;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
+#include "simulation/families/springs/springs.h"
+#include "simulation/families/tetrahedra/tetrahedra.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -123,11 +125,11 @@ TEST_P(Solid, ThrownAtRandomFindsBack) {
     for (std::size_t v = 0; v < x.count(); ++v)
         x[v] = {coordinate(), coordinate(), coordinate(), x[v].w};
     run.changed(x);
-    const double start = run.model->tetrahedra->energy(x.span());
+    const double start = run.model->find<Tetrahedra>()->total_energy(x.span());
     run.run(300);
-    EXPECT_LT(run.model->tetrahedra->energy(x.span()), 1e-6 * start);
-    for (int t = 0; t < run.model->tetrahedra->elements.count(); ++t) {
-        EXPECT_NEAR(run.model->tetrahedra->stretch(t, x.span()), 1.0, 1e-3);
+    EXPECT_LT(run.model->find<Tetrahedra>()->total_energy(x.span()), 1e-6 * start);
+    for (int t = 0; t < run.model->find<Tetrahedra>()->elements().count(); ++t) {
+        EXPECT_NEAR(run.model->find<Tetrahedra>()->stretch(t, x.span()), 1.0, 1e-3);
     }
 }
 
@@ -218,12 +220,12 @@ TEST_P(Attachment, CarriesTheWeightOfWhatHangsOnIt) {
         const bool is_of_load = model.strips.order[static_cast<std::size_t>(v)] >= 25;
         if (is_of_load) weight += 9.81 * model.masses[static_cast<std::size_t>(v)];
     }
-    const Springs& springs = *model.springs;
+    const Springs& springs = *model.find<Springs>();
     int ties = 0;
-    for (int s = 0; s < springs.elements.count(); ++s) {
+    for (int s = 0; s < springs.elements().count(); ++s) {
         if (springs.is_edge(s)) continue;
         ++ties;
-        const auto ends = springs.elements.vertices_of(s);
+        const auto ends = springs.elements().vertices_of(s);
         const auto in_scene = [&](std::size_t end) {
             return model.strips.order[static_cast<std::size_t>(ends[end])];
         };

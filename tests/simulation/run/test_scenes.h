@@ -144,6 +144,66 @@ radius = 0.12
 friction = 0.4
 )";
 
+/// Tubes that are curved at rest, one of them with a membrane, sewn together at their rims and to a
+/// flat panel; a seam that closes within the run and one that does not.
+inline const std::string kSewn = R"(
+[scene]
+frames = 4
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 3
+
+[[cloth]]
+name = "upper"
+cylinder = { radius = [0.2, 0.25], height = 0.9, resolution = [12, 24] }
+translate = [0.0, 1.2, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+bend = { stiffness = 1.0e-2 }
+[[cloth.pins]]
+rims = ["top"]
+motion = { velocity = [0.5, 0.2, 0.0] }
+
+[[cloth]]
+name = "lower"
+cylinder = { radius = [0.27, 0.3], height = 0.9, resolution = [16, 24] }
+translate = [0.0, 0.44, 0.0]
+density = 0.3
+membrane = { young = 1.0e5, poisson = 0.3, thickness = 1.0e-3 }
+bend = { stiffness = 1.0e-2 }
+damping = 0.5
+
+[[cloth]]
+name = "panel"
+grid = { size = [0.3, 0.9], resolution = [5, 24] }
+translate = [0.0, 0.3, 0.6]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+bend = { stiffness = 1.0e-3 }
+
+[[seam]]
+a = { cloth = "upper", rims = ["bottom"] }
+b = { cloth = "lower", rims = ["top"] }
+stiffness = 5.0e2
+time = 0.05
+[[seam]]
+a = { cloth = "panel", vertices = [0, 4, 2] }
+b = { cloth = "lower", vertices = [370, 373, 380] }
+stiffness = 5.0e1
+time = 0.5
+
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+friction = 0.2
+
+[[obstacle]]
+shape = "sphere"
+center = [0.0, 0.25, 0.6]
+radius = 0.1
+)";
+
 /// Springs alone.
 inline const std::string kSpringsOnly = R"(
 [scene]
@@ -158,6 +218,35 @@ grid = { size = [0.5, 2.0], resolution = [8, 60] }
 density = 0.2
 stretch = { stiffness = 1.0e4 }
 pins = { corners = ["x-z-"] }
+)";
+
+/// Woven cloth across its threads, with bending, held and moved, on a ball.
+inline const std::string kWoven = R"(
+[scene]
+frames = 4
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 3
+
+[[cloth]]
+grid = { size = [0.5, 2.4], resolution = [8, 64] }
+translate = [0.0, 0.62, 0.0]
+density = 0.2
+woven = { warp = 2.0e3, weft = 4.0e2, shear = 30.0, direction = [1.0, 0.0, 2.0] }
+bend = { stiffness = 1.0e-3 }
+damping = 0.5
+[[cloth.pins]]
+corners = ["x-z-"]
+[[cloth.pins]]
+corners = ["x+z-"]
+motion = { velocity = [0.5, 1.0, -0.5] }
+
+[[obstacle]]
+shape = "sphere"
+center = [0.0, 0.5, 0.2]
+radius = 0.15
+friction = 0.4
 )";
 
 }  // namespace weft::test

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/scene/cloth_mesh.h"
+#include "simulation/bodies/cloth_mesh.h"
+#include "simulation/bodies/solid_mesh.h"
 #include "simulation/scene/read_scene.h"
-#include "simulation/scene/solid_mesh.h"
 
 namespace weft {
 namespace {

@@ -56,7 +56,7 @@ Buffers declared(const Step& step) {
 
 /// Of this one, JPGD keeps the rows of the Hessian for later tasks; the rows of the gradient are
 /// scratch, which every task writes for itself.
-const std::string kPartlyScratch = "slopes";
+const std::string kPartlyScratch = "derivatives";
 
 bool declares(const Task& task, const BufferStorage& buffer, bool written) {
     return std::ranges::any_of(task.accesses, [&](const Access& access) {
@@ -105,13 +105,17 @@ TEST_P(Accesses, AreDeclaredForAllThatLaunchesTouch) {
 std::string name_of_case(
     const testing::TestParamInfo<std::tuple<Method, const std::string*>>& given) {
     const auto [method, text] = given.param;
-    return std::string(name_of(method)) + (text == &kEverything ? "Cloth" : "Solids");
+    const char* scene = text == &kEverything ? "Cloth"
+                        : text == &kSolids   ? "Solids"
+                        : text == &kWoven    ? "Woven"
+                                             : "Sewn";
+    return std::string(name_of(method)) + scene;
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Accesses,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
                                                           Method::kSosd, Method::kJpgd),
-                                          testing::Values(&kEverything, &kSolids)),
+                                          testing::Values(&kEverything, &kSolids, &kWoven, &kSewn)),
                          name_of_case);
 
 }  // namespace

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
-#include "simulation/model/convert.h"
+#include "simulation/families/convert.h"
 #include "simulation/reference/newton.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/manual_run.h"
@@ -16,6 +17,7 @@ const std::string kSheet = R"(
 [scene]
 frames = 1
 dt = 0.016666667
+substeps = 1
 [[cloth]]
 grid = { size = [1.0, 1.4], resolution = [15, 21] }
 density = 0.2
@@ -29,6 +31,7 @@ const std::string kBeam = R"(
 [scene]
 frames = 1
 dt = 0.016666667
+substeps = 1
 [[cloth]]
 name = "film"
 grid = { size = [0.8, 0.8], resolution = [9, 9] }
@@ -54,12 +57,27 @@ const std::string kFilm = R"(
 [scene]
 frames = 1
 dt = 0.016666667
+substeps = 1
 [[cloth]]
 grid = { size = [1.0, 1.4], resolution = [15, 21] }
 density = 0.2
 membrane = { young = 3.0e5, poisson = 0.3, thickness = 1.0e-3 }
 bend = { stiffness = 1.0e-2 }
 pins = { corners = ["x-z-", "x+z-"] }
+)";
+
+/// A tube that is curved at rest.
+const std::string kTube = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 1
+[[cloth]]
+cylinder = { radius = [0.3, 0.4], height = 0.6, resolution = [14, 10] }
+density = 0.2
+stretch = { stiffness = 100.0 }
+bend = { stiffness = 2.0e-1 }
+pins = { rims = ["top"] }
 )";
 
 /// One substep of a scene that is stretched, bent and sheared at its start.
@@ -110,8 +128,9 @@ TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
         const double error = (energy - minimum.energy) / whole;
         EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
         // JPGD goes back to its last checkpoint where a step length was too large: a run that ends
-        // just then may be no better than its start.
-        const double bound = method == Method::kJpgd ? 1.0 : last;
+        // just then may be no better than its start. It does so early, or not at all.
+        const bool may_be_back = method == Method::kJpgd && iterations > 4 && iterations < 32;
+        const double bound = may_be_back ? 1.0 : std::min(last, 0.99);
         EXPECT_LT(error, bound + 1e-6) << iterations << " iterations";
         last = error;
         RecordProperty("after_" + std::to_string(iterations), std::to_string(error));
@@ -122,14 +141,17 @@ TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
 std::string name_of_method(
     const testing::TestParamInfo<std::tuple<Method, const std::string*>>& info) {
     const auto [method, scene] = info.param;
-    const char* body = scene == &kSheet ? "Sheet" : scene == &kFilm ? "Film" : "Beam";
+    const char* body = scene == &kSheet  ? "Sheet"
+                       : scene == &kFilm ? "Film"
+                       : scene == &kTube ? "Tube"
+                                         : "Beam";
     return std::string(name_of(method)) + body;
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Descent,
                          testing::Combine(testing::Values(Method::kVbd, Method::kSosd,
                                                           Method::kJpgd),
-                                          testing::Values(&kSheet, &kFilm, &kBeam)),
+                                          testing::Values(&kSheet, &kFilm, &kBeam, &kTube)),
                          name_of_method);
 
 /// The scenes that ship, with fewer vertices and without what is no part of E.

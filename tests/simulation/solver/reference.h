@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Dense>
 #include <array>
 #include <vector>
 
@@ -25,6 +26,7 @@ private:
     void project_hinge(int hinge);
     void project_membrane(int triangle);
     void project_tetrahedron(int tetrahedron);
+    void project_woven(int triangle);
     void project_pair(std::span<const int> corners, std::span<const Vec3> gradients_0,
                       std::span<const Vec3> gradients_1, Pair c, Pair compliance, Pair& lambda);
     void collide(const Obstacle& obstacle, double time);
@@ -33,6 +35,7 @@ private:
     std::vector<double> inverse_mass_, decay_;
     std::vector<double> spring_multipliers_, hinge_multipliers_;
     std::vector<Pair> membrane_multipliers_, tetrahedron_multipliers_;
+    std::vector<Eigen::Vector3d> woven_multipliers_;
     std::vector<Vec3> previous_;
 };
 

@@ -1,0 +1,101 @@
+#include "apps/weft/batch/make_sweep.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/weft/batch/listing.h"
+#include "apps/weft/batch/run_folder.h"
+#include "apps/weft/cli_support.h"
+#include "apps/weft/studies/error_study.h"
+#include "runtime/device_list.h"
+#include "runtime/error.h"
+
+namespace weft::batch {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As the program itself would read them; but nothing is done.
+void check_options(const std::string& command, const std::vector<std::string>& options) {
+    CLI::App app{"", "weft"};
+    RunOptions run;
+    ErrorOptions study;
+    add_run_options(*app.add_subcommand("run"), run);
+    add_error_options(*app.add_subcommand("error"), study);
+    std::vector<std::string> words{command, "scene.toml"};
+    words.insert(words.end(), options.begin(), options.end());
+    std::ranges::reverse(words);  // as CLI11 wants them
+    try {
+        app.parse(words);
+    } catch (const CLI::ParseError& error) {
+        throw UserError(describe_parse_error(app, error));
+    }
+    for (const char* name : {"--device", "--devices"}) {
+        const CLI::Option* option = app.get_subcommand(command)->get_option_no_throw(name);
+        if (option == nullptr) continue;
+        for (const std::string& list : option->results()) check_device_list(list);
+    }
+}
+
+std::size_t count_dropped(const std::vector<Run>& runs) {
+    return static_cast<std::size_t>(std::ranges::count_if(runs, &Run::dropped));
+}
+
+}  // namespace
+
+fs::path sweep_folder(const std::string& name, const std::optional<std::string>& out) {
+    return out ? fs::path(*out) : fs::path("out") / name;
+}
+
+Made make_sweep(const Sweep& sweep, const fs::path& folder) {
+    std::vector<Run> now = runs_of(sweep, folder, check_options);
+    Made made{sweep.name, folder, now.size()};
+    FolderLock lock;  // two of these at a time might give one number twice
+    if (!lock.take(folder)) {
+        throw RunError(folder.string() + ": another process is making this sweep; try again");
+    }
+    std::vector<Run> before;
+    if (fs::exists(manifest_path(folder))) before = read_manifest(folder).runs;
+    const Manifest manifest{sweep.name, sweep.command,    WEFT_VERSION,
+                            sweep.text, sweep.time_limit, merged(before, std::move(now))};
+    made.added = manifest.runs.size() - before.size();
+    made.dropped = count_dropped(manifest.runs);
+    write_manifest(folder, manifest);
+    return made;
+}
+
+std::string to_text(const Made& made, const std::string& sweep_file) {
+    std::string text =
+        fmt::format("{}: {} runs in {}", made.name, made.current, made.folder.string());
+    if (made.added != made.current) text += fmt::format(", {} of them new", made.added);
+    text += '\n';
+    if (made.dropped > 0) {
+        text += fmt::format(
+            "{} runs stand in the manifest that the sweep file has no more (--dropped lists "
+            "them)\n",
+            made.dropped);
+    }
+    const std::string file = shell_word(sweep_file);
+    return text +
+           fmt::format(
+               "next:\n"
+               "  weft batch {0} --index all          all of them here, one after the other\n"
+               "  weft batch {0} --script slurm       a job script; also parallel, "
+               "hyperqueue, snakemake\n"
+               "  weft batch {0} --list               what has become of them\n"
+               "  weft batch {0} --collect            results.csv, results.h5\n",
+               file);
+}
+
+nlohmann::ordered_json to_json(const Made& made) {
+    return {{"name", made.name},
+            {"folder", made.folder.string()},
+            {"runs", made.current},
+            {"new", made.added},
+            {"dropped", made.dropped}};
+}
+
+}  // namespace weft::batch

@@ -1,0 +1,142 @@
+#include "apps/weft/batch/manifest.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+
+#include "runtime/error.h"
+#include "runtime/io/whole_file.h"
+
+namespace weft::batch {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFormat = "weft-batch";
+constexpr int kVersion = 1;
+
+Value head_json(const Manifest& manifest) {
+    Value head{{"format", kFormat},           {"format_version", kVersion},
+               {"weft", manifest.weft},       {"name", manifest.name},
+               {"command", manifest.command}, {"count", manifest.runs.size()}};
+    if (manifest.time_limit) head["time_limit_s"] = *manifest.time_limit;
+    head["sweep"] = manifest.sweep;
+    return head;
+}
+
+Value run_json(const Run& run) {
+    Value values = Value::object();
+    for (const auto& [key, value] : run.values) values[key] = value;
+    Value line{{"index", run.index},           {"id", run.id},     {"scene", run.scene},
+               {"scene_hash", run.scene_hash}, {"values", values}, {"args", run.arguments}};
+    if (run.dropped) line["dropped"] = true;
+    return line;
+}
+
+void read_head(const Value& head, Manifest& manifest) {
+    if (head.at("format") != kFormat) throw UserError("it is no manifest of weft batch");
+    const int version = head.at("format_version");
+    if (version != kVersion) {
+        throw UserError(
+            fmt::format("its format has version {}, this weft reads {}", version, kVersion));
+    }
+    manifest.name = head.at("name");
+    manifest.command = head.at("command");
+    manifest.weft = head.at("weft");
+    manifest.sweep = head.at("sweep");
+    if (head.contains("time_limit_s")) manifest.time_limit = head["time_limit_s"].get<double>();
+    manifest.runs.reserve(head.at("count"));
+}
+
+Run read_run(const Value& line) {
+    Run run;
+    run.index = line.at("index");
+    run.id = line.at("id");
+    run.scene = line.at("scene");
+    run.scene_hash = line.at("scene_hash");
+    for (const auto& [key, value] : line.at("values").items()) run.values.emplace_back(key, value);
+    run.arguments = line.at("args").get<std::vector<std::string>>();
+    run.dropped = line.value("dropped", false);
+    return run;
+}
+
+/// Throws UserError that says what is wrong, but not where; and the library's own errors.
+Manifest parse(std::istream& file) {
+    Manifest manifest;
+    std::string line;
+    if (!std::getline(file, line)) throw UserError("it is empty");
+    const Value head = Value::parse(line);
+    read_head(head, manifest);
+    while (std::getline(file, line)) {
+        manifest.runs.push_back(read_run(Value::parse(line)));
+        if (manifest.runs.back().index + 1 != manifest.runs.size()) {
+            throw UserError(fmt::format("run {} stands where run {} should",
+                                        manifest.runs.back().index, manifest.runs.size() - 1));
+        }
+    }
+    const std::size_t count = head.at("count");
+    if (manifest.runs.size() != count) {
+        throw UserError(fmt::format("it has {} runs and says {}", manifest.runs.size(), count));
+    }
+    return manifest;
+}
+
+}  // namespace
+
+std::vector<std::size_t> Manifest::current() const {
+    std::vector<std::size_t> indices;
+    for (const Run& run : runs) {
+        if (!run.dropped) indices.push_back(run.index);
+    }
+    return indices;
+}
+
+std::string to_jsonl(const Manifest& manifest) {
+    std::string text = head_json(manifest).dump() + '\n';
+    for (const Run& run : manifest.runs) text += run_json(run).dump() + '\n';
+    return text;
+}
+
+fs::path manifest_path(const fs::path& folder) { return folder / "manifest.jsonl"; }
+
+Manifest read_manifest(const fs::path& folder) {
+    const fs::path path = manifest_path(folder);
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw UserError(path.string() +
+                        ": is not there; 'weft batch SWEEP.toml' checks a sweep and makes it");
+    }
+    try {
+        return parse(file);
+    } catch (const UserError& error) {
+        throw UserError(path.string() + ": " + error.what());
+    } catch (const Value::exception& error) {
+        throw UserError(path.string() + ": cannot be read: " + error.what());
+    }
+}
+
+void write_manifest(const fs::path& folder, const Manifest& manifest) {
+    write_whole_file(manifest_path(folder), to_jsonl(manifest));
+}
+
+std::vector<Run> merged(const std::vector<Run>& before, std::vector<Run> now) {
+    std::map<std::string, std::size_t> known;
+    std::vector<Run> runs = before;
+    for (Run& run : runs) {
+        known[run.id] = run.index;
+        run.dropped = true;
+    }
+    for (Run& run : now) {
+        const auto at = known.find(run.id);
+        run.index = at == known.end() ? runs.size() : at->second;
+        if (at == known.end())
+            runs.push_back(std::move(run));
+        else
+            runs[run.index] = std::move(run);
+    }
+    return runs;
+}
+
+}  // namespace weft::batch

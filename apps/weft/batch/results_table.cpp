@@ -1,0 +1,179 @@
+#include "apps/weft/batch/results_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "apps/weft/batch/drive.h"
+
+namespace weft::batch {
+
+namespace {
+
+constexpr const char* kHash = "state_hash";
+
+// Of summary.json; its other numbers follow.
+const std::vector<std::string>& first_results() {
+    static const std::vector<std::string> names{"frames", "ms_per_frame", "ms_p95", "energy",
+                                                kHash};
+    return names;
+}
+
+Value read_summary(const RunFolder& folder) {
+    std::ifstream file(folder.summary(), std::ios::binary);
+    if (!file) return Value::object();
+    Value summary = Value::parse(file, nullptr, /*allow_exceptions=*/false);
+    return summary.is_object() ? summary : Value::object();
+}
+
+Value member(const Value& object, const std::string& key) {
+    return object.contains(key) ? object[key] : Value(nullptr);
+}
+
+std::string device_names(const Value& summary) {
+    std::vector<std::string> names;
+    if (!summary.contains("devices") || !summary["devices"].is_array()) return "";
+    for (const Value& device : summary["devices"]) names.push_back(device.value("name", ""));
+    return fmt::format("{}", fmt::join(names, " + "));
+}
+
+/// Columns in the order in which they are met first.
+class Columns {
+public:
+    void add(const std::string& name) {
+        if (seen_.insert(name).second) names_.push_back(name);
+    }
+    std::vector<std::string> take() { return std::move(names_); }
+
+private:
+    std::vector<std::string> names_;
+    std::set<std::string> seen_;
+};
+
+std::vector<std::string> columns_of(const std::vector<Listed>& runs,
+                                    const std::vector<Value>& summaries) {
+    Columns columns;
+    for (const char* name : {"index", "id"}) columns.add(name);
+    for (const Listed& listed : runs) {
+        for (const auto& [key, value] : listed.run->values) columns.add(key);
+    }
+    for (const char* name : {"state", "exit_code", "attempts"}) columns.add(name);
+    for (const std::string& name : first_results()) columns.add(name);
+    for (const char* name : {"wall_s", "host", "cores", "devices", "weft", "job"})
+        columns.add(name);
+    for (const Value& summary : summaries) {
+        for (const auto& [key, value] : summary.items()) {
+            if (value.is_number()) columns.add(key);
+        }
+    }
+    columns.add("why");
+    return columns.take();
+}
+
+/// By column. The axes' values come last, and win.
+std::map<std::string, Value> cells_of(const Listed& listed, const Value& summary) {
+    const auto& [run, status] = listed;
+    std::map<std::string, Value> cells;
+    for (const auto& [key, value] : summary.items()) {
+        if (value.is_number()) cells[key] = value;
+    }
+    cells[kHash] = member(summary, kHash);
+    cells["index"] = run->index;
+    cells["id"] = run->id;
+    cells["state"] = name_of(status.state);
+    cells["exit_code"] = status.exit_code ? Value(*status.exit_code) : Value(nullptr);
+    cells["attempts"] = status.attempts;
+    cells["wall_s"] = status.wall;
+    cells["host"] = status.host;
+    cells["cores"] = status.cores;
+    cells["devices"] = device_names(summary);
+    cells["weft"] = status.weft;
+    cells["job"] = status.job;
+    cells["why"] = status.why;
+    for (const auto& [key, value] : run->values) cells[key] = value;
+    return cells;
+}
+
+std::string csv_cell(const Value& value) {
+    if (value.is_null()) return "";
+    const std::string text = to_text(value);
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c;
+        if (c == '"') quoted += c;
+    }
+    return quoted + '"';
+}
+
+template <class List>
+std::string csv_line(const List& cells) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + csv_cell(cells[i]);
+    return line + '\n';
+}
+
+/// What a run's result may depend on.
+std::string origin_of(const Run& run) {
+    std::string text = run.scene_hash;
+    for (std::size_t i = 0; i < run.arguments.size(); ++i) {
+        const std::string& word = run.arguments[i];
+        if (word == "--set" || word == "--math")
+            text += '\n' + word + ' ' + run.arguments.at(i + 1);
+    }
+    return text;
+}
+
+}  // namespace
+
+ResultsTable results_table(const std::filesystem::path& folder, const std::vector<Listed>& runs) {
+    std::vector<Value> summaries;
+    for (const Listed& listed : runs) {
+        summaries.push_back(read_summary(RunFolder(run_path(folder, *listed.run))));
+    }
+    ResultsTable table{columns_of(runs, summaries), {}};
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const auto cells = cells_of(runs[i], summaries[i]);
+        std::vector<Value> row;
+        for (const std::string& column : table.columns) {
+            const auto cell = cells.find(column);
+            row.push_back(cell == cells.end() ? Value(nullptr) : cell->second);
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string to_csv(const ResultsTable& table) {
+    std::string text = csv_line(table.columns);
+    for (const auto& row : table.rows) text += csv_line(row);
+    return text;
+}
+
+std::vector<std::string> hash_differences(const ResultsTable& table,
+                                          const std::vector<Listed>& runs) {
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(table.columns, kHash) - table.columns.begin());
+    std::map<std::string, std::map<std::string, std::vector<std::size_t>>> groups;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const Value& hash = table.rows[i][at];
+        if (runs[i].status.state != State::kFinished || !hash.is_string()) continue;
+        groups[origin_of(*runs[i].run)][hash.get<std::string>()].push_back(runs[i].run->index);
+    }
+    std::vector<std::string> notes;
+    for (const auto& [origin, hashes] : groups) {
+        if (hashes.size() < 2) continue;
+        std::string text = "runs that differ in devices, plan or repeat only have several results:";
+        for (const auto& [hash, indices] : hashes) {
+            text += fmt::format(" {} ({:.8})", fmt::join(indices, ", "), hash);
+        }
+        notes.push_back(text);
+    }
+    return notes;
+}
+
+}  // namespace weft::batch

@@ -1,8 +1,0 @@
-// Stands in for cairo_canvas.cpp where there is no cairo.
-#include "apps/weft/canvas.h"
-
-namespace weft {
-
-std::unique_ptr<Canvas> make_png_canvas(double, double) { return nullptr; }
-
-}  // namespace weft

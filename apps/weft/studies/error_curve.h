@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/weft/studies/error_problem.h"
+
+namespace weft {
+
+/// What was measured of one curve: its points, how it ended, and the state of least E.
+struct MeasuredCurve {
+    std::vector<ErrorPoint> points;
+    std::string end;
+    std::vector<float> positions;  ///< xyz in scene order
+
+    void add(const ErrorPoint& point, std::vector<float> at);
+    double least_energy() const;  ///< infinite without points
+};
+
+/// Runs the step with more and more iterations, in a process of its own. run: solver, devices, plan
+MeasuredCurve measure_curve(const ErrorOptions& options, const RunOptions& run,
+                            const ErrorProblem& problem);
+
+}  // namespace weft

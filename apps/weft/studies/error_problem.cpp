@@ -1,0 +1,87 @@
+#include "apps/weft/studies/error_problem.h"
+
+#include <cstring>
+#include <limits>
+
+#include "apps/weft/child_process.h"
+#include "apps/weft/progress.h"
+
+namespace weft {
+
+namespace {
+
+std::string to_bytes(const State& state) {
+    std::string bytes(2 * state.positions.size() * sizeof(float), '\0');
+    const std::size_t half = bytes.size() / 2;
+    std::memcpy(bytes.data(), state.positions.data(), half);
+    std::memcpy(bytes.data() + half, state.velocities.data(), half);
+    return bytes;
+}
+
+State to_state(const std::string& bytes) {
+    const std::size_t half = bytes.size() / 2;
+    State state{std::vector<float>(half / sizeof(float)), std::vector<float>(half / sizeof(float))};
+    std::memcpy(state.positions.data(), bytes.data(), half);
+    std::memcpy(state.velocities.data(), bytes.data() + half, half);
+    return state;
+}
+
+void set_state(Model& model, const State& state) {
+    model.from_scene_order(state.positions, model.positions->span());
+    model.from_scene_order(state.velocities, model.velocities->span());
+}
+
+}  // namespace
+
+State state_at(const ErrorOptions& options, const Scene& scene, int frame) {
+    if (frame == 0) {
+        Warnings warnings;
+        const Model model(scene, warnings);
+        return {model.in_scene_order(model.positions->span()),
+                std::vector<float>(3 * model.positions->count())};
+    }
+    return to_state(in_child_process("the run up to the frame", [&] {
+        Warnings warnings;
+        RunOptions run = options.run;
+        run.device = options.devices.front();
+        Simulation simulation(scene, run.simulation(), warnings);
+        Progress progress("frame", frame, options.run.quiet);
+        for (int f = 0; f < frame; ++f) {
+            simulation.advance();
+            progress.show(f + 1);
+        }
+        return to_bytes({simulation.positions(), simulation.velocities()});
+    }));
+}
+
+Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations) {
+    RunOptions run = options.run;
+    run.solver = solver;
+    Scene scene = with_substeps(read_scene(run.scene, run.overrides()));
+    scene.obstacles.clear();
+    scene.dt /= scene.substeps;
+    scene.substeps = 1;
+    scene.solver.iterations = iterations;
+    scene.guard.max_speed = scene.guard.max_strain = std::numeric_limits<double>::infinity();
+    return scene;
+}
+
+ErrorProblem::ErrorProblem(const ErrorOptions& options, State state, int substep)
+    : model(scene_of_step(options, options.solvers.front(), 1), warnings),
+      first_substep(substep),
+      start(std::move(state)) {
+    set_state(model, start);
+    potential = std::make_unique<IncrementalPotential>(model, substep * model.h);
+}
+
+std::vector<Vec3> ErrorProblem::from_scene_order(const std::vector<float>& positions) const {
+    const std::vector<Vec3>& predicted = potential->predicted();
+    std::vector<Vec3> x(predicted.size());
+    model.from_scene_order(positions, x);
+    for (std::size_t v = 0; v < x.size(); ++v) {
+        if (!potential->is_free(static_cast<int>(v))) x[v] = predicted[v];
+    }
+    return x;
+}
+
+}  // namespace weft

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/weft/studies/error_study.h"
+#include "simulation/model/model.h"
+#include "simulation/reference/incremental_potential.h"
+
+namespace weft {
+
+/// A state as the simulation gives it: xyz in scene order.
+struct State {
+    std::vector<float> positions, velocities;
+};
+
+/// The state at the start of `frame`, from the whole scene with all that it has.
+State state_at(const ErrorOptions& options, const Scene& scene, int frame);
+
+/// The scene of the step alone: one substep, no contact, and no guard, since what solvers pass
+/// through on their way is to be seen. Throws UserError.
+Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations);
+
+/// The step that all solvers are measured on.
+struct ErrorProblem {
+    ErrorProblem(const ErrorOptions& options, State state, int substep);
+
+    /// Positions in scene order as the potential wants them. Held vertices are where they belong.
+    std::vector<Vec3> from_scene_order(const std::vector<float>& positions) const;
+
+    Warnings warnings;
+    Model model;
+    int first_substep;  ///< since the run's beginning
+    State start;
+    std::unique_ptr<IncrementalPotential> potential;
+};
+
+}  // namespace weft

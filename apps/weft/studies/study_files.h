@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "simulation/output/error_file.h"
+#include "simulation/output/trajectory_file.h"
+
+namespace weft {
+
+/// Writes error.csv, the picture (error.svg, and error.png where there is cairo), and, where the
+/// reference's positions are known, error.h5. What was written, for people. Throws UserError,
+/// RunError.
+std::string write_study(const std::filesystem::path& folder, const ErrorStudy& study);
+/// The same for trajectory.csv and so on.
+std::string write_study(const std::filesystem::path& folder, const TrajectoryStudy& study);
+
+}  // namespace weft

@@ -1,0 +1,64 @@
+#include "runtime/io/cache_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "runtime/error.h"
+#include "runtime/io/whole_file.h"
+
+namespace weft {
+
+namespace fs = std::filesystem;
+
+fs::path cache_folder() {
+    if (const char* own = std::getenv("WEFT_CACHE_DIR")) return own;
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME")) return fs::path(xdg) / "weft";
+    if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "weft";
+    return {};
+}
+
+std::string cache_key(std::string_view text) {
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+    char name[17];
+    std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(hash));
+    return name;
+}
+
+std::string read_cached(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_cached(const fs::path& path, std::string_view bytes) {
+    std::error_code ignored;
+    fs::create_directories(path.parent_path(), ignored);
+    try {
+        WholeFile file(path, "", WholeFile::Writers::kMany);
+        file.write(bytes);
+        file.finish();
+    } catch (const RunError&) {
+        // passed over: what is cached can be made again
+    }
+}
+
+CacheLock::CacheLock(const fs::path& path) {
+    std::error_code ignored;
+    fs::create_directories(path.parent_path(), ignored);
+    file_ = ::open((path.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    while (file_ >= 0 && ::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+}
+
+CacheLock::~CacheLock() {
+    if (file_ >= 0) ::close(file_);
+}
+
+}  // namespace weft

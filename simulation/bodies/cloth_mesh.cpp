@@ -1,0 +1,57 @@
+#include "simulation/bodies/cloth_mesh.h"
+
+#include <fmt/format.h>
+
+#include "runtime/error.h"
+#include "simulation/bodies/selection.h"
+#include "simulation/mesh/generators.h"
+#include "simulation/mesh/mesh_checks.h"
+#include "simulation/mesh/obj_reader.h"
+#include "simulation/scene/limits.h"
+
+namespace weft {
+namespace {
+
+TriangleMesh read_checked(const MeshFile& file, Warnings& warnings) {
+    const std::string& path = file.path;
+    TriangleMesh mesh = file.rest.empty() ? read_obj(path, warnings)
+                                          : read_obj_with_rest(path, file.rest, warnings);
+    if (mesh.vertex_count() > kMaxVertices) {
+        throw UserError(fmt::format("{}: {} vertices are more than the {} that indices can count",
+                                    path, mesh.vertex_count(), kMaxVertices));
+    }
+    drop_duplicates(mesh, warnings);
+    warn_of_odd_topology(mesh, warnings);
+    return mesh;
+}
+
+TriangleMesh make_mesh(const Cloth& cloth, Warnings& warnings) {
+    if (const auto* grid = std::get_if<GridShape>(&cloth.shape)) {
+        return make_grid(grid->size, grid->resolution);
+    }
+    if (const auto* cylinder = std::get_if<CylinderShape>(&cloth.shape)) {
+        return make_cylinder(cylinder->radius, cylinder->height, cylinder->resolution);
+    }
+    return read_checked(std::get<MeshFile>(cloth.shape), warnings);
+}
+
+}  // namespace
+
+TriangleMesh build_cloth_mesh(const Cloth& cloth, Warnings& warnings) {
+    TriangleMesh mesh = make_mesh(cloth, warnings);
+    place(mesh.positions, cloth.transform);
+    for (auto& corners : mesh.rest) {
+        for (Vec3& corner : corners) corner = cloth.transform.scale.x * corner;
+    }
+    check_areas(mesh);
+    return mesh;
+}
+
+std::vector<int> pinned_vertices(const Cloth& cloth, const PinGroup& pins,
+                                 const TriangleMesh& mesh) {
+    return selected_vertices(pins, cloth.shape, mesh.positions,
+                             pins.parts.empty() ? NamedVertices{} : named_parts(mesh),
+                             fmt::format("pins of cloth '{}'", cloth.name));
+}
+
+}  // namespace weft

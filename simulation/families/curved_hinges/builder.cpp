@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "simulation/families/builder.h"
+#include "simulation/families/curved_hinges/curved_hinges.h"
+#include "simulation/families/hinges/hinge_shape.h"
+
+namespace weft {
+
+namespace {
+
+class CurvedHingesBuilder final : public FamilyBuilder {
+public:
+    CurvedHingesBuilder() : FamilyBuilder({"curved_hinges", "curved bending", "curved_bend"}, 4) {}
+
+    void add(const ClothPart& part) override {
+        if (!part.cloth.bend || part.cloth.bend->rest_is_flat) return;
+        const double root = std::sqrt(part.cloth.bend->stiffness);
+        for (int h = 0; h < part.adjacency.hinges.count(); ++h) {
+            const auto vertices = part.adjacency.hinges[h];
+            const HingeCorners corners = part.rest.hinge(vertices);
+            if (half_fold(corners).is_flat()) continue;
+            append(vertices, part.first_vertex);
+            weights_.push_back(curved_hinge_weights(corners));
+            for (double& weight : weights_.back()) weight *= root;
+        }
+    }
+
+    std::unique_ptr<ElementFamily> build(const Strips& strips,
+                                         std::span<const Vec3> /*rest*/) const override {
+        return std::make_unique<CurvedHinges>(names(), stencils(), strips, weights_);
+    }
+
+    std::vector<Absence> absences(const Scene& /*scene*/, bool exists) const override {
+        if (exists) return {};
+        return {{"curved bending", "no cloth with bending is folded at rest"}};
+    }
+
+private:
+    std::vector<CurvedHinges::Weights> weights_;  ///< [hinges]
+};
+
+}  // namespace
+
+std::unique_ptr<FamilyBuilder> make_curved_hinges_builder() {
+    return std::make_unique<CurvedHingesBuilder>();
+}
+
+}  // namespace weft

@@ -1,0 +1,57 @@
+#include "simulation/families/element_rows.h"
+
+namespace weft {
+
+ElementRows::Corners::Corners(const Elements& elements, const VertexItems& items)
+    : at(static_cast<std::size_t>(items.count())) {
+    for (int e = 0; e < elements.count(); ++e) {
+        const auto vertices = elements.vertices_of(e);
+        for (int k = 0; k < elements.arity(); ++k) {
+            at[static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)])].push_back({e, k});
+        }
+    }
+    for (int i = 0; i < items.count(); ++i) {
+        lengths.push_back(static_cast<int>(at[static_cast<std::size_t>(items.vertex(i))].size()));
+    }
+}
+
+ElementRows::ElementRows(const std::string& name, const Elements& elements,
+                         const VertexItems& items)
+    : ElementRows(name, elements, items, Corners(elements, items)) {}
+
+ElementRows::ElementRows(const std::string& name, const Elements& elements,
+                         const VertexItems& items, const Corners& corners)
+    : rows_(name + ".rows", items.segment_begin(), corners.lengths),
+      others_(name + ".others", entries() * static_cast<std::size_t>(elements.arity() - 1)),
+      corners_(entries(), Corner{-1, 0}) {
+    const auto others = static_cast<std::size_t>(elements.arity() - 1);
+    for (int i = 0; i < items.count(); ++i) {
+        const int vertex = items.vertex(i);
+        const auto& row = corners.at[static_cast<std::size_t>(vertex)];
+        for (int k = 0; k < rows_.length(i); ++k) {
+            const std::size_t entry = rows_.entry(i, k);
+            for (std::size_t o = 0; o < others; ++o) others_[o * entries() + entry] = vertex;
+            if (static_cast<std::size_t>(k) >= row.size()) continue;
+            const Corner at = corners_[entry] = row[static_cast<std::size_t>(k)];
+            const auto vertices = elements.vertices_of(at.element);
+            for (std::size_t o = 0; o < others; ++o) {
+                const auto next = (static_cast<std::size_t>(at.corner) + 1 + o) % vertices.size();
+                others_[o * entries() + entry] = vertices[next];
+            }
+        }
+    }
+}
+
+void ElementRows::fill(Buffer<float>& table, const Numbers& numbers) const {
+    for (std::size_t entry = 0; entry < entries(); ++entry) {
+        const Corner& at = corners_[entry];
+        if (at.element < 0) continue;
+        std::size_t place = entry;
+        for (const double number : numbers(at.element, at.corner)) {
+            table[place] = static_cast<float>(number);
+            place += entries();
+        }
+    }
+}
+
+}  // namespace weft

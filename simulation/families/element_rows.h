@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "simulation/families/family.h"
+#include "simulation/families/sliced_rows.h"
+
+namespace weft {
+
+/// Per vertex a row of the elements that touch it: their other corners, in the order that follows
+/// the vertex' own. Entries that only fill a row up name the vertex itself, and have zeros in all
+/// tables.
+class ElementRows {
+public:
+    /// name: of the buffers
+    ElementRows(const std::string& name, const Elements& elements, const VertexItems& items);
+
+    Buffer<int>& slices() { return rows_.slices(); }
+    /// [(arity - 1) * entries] column-major
+    Buffer<int>& others() { return others_; }
+    int entry_count() const { return rows_.entry_count(); }
+    std::size_t entries() const { return static_cast<std::size_t>(rows_.entry_count()); }
+
+    /// Gives the numbers of an entry, one per column of a table. corner: the vertex' own
+    using Numbers = std::function<std::vector<double>(int element, int corner)>;
+    /// table: [columns * entries] column-major
+    void fill(Buffer<float>& table, const Numbers& numbers) const;
+
+private:
+    /// A corner of an element, seen from the vertex that it is at.
+    struct Corner {
+        int element;
+        int corner;
+    };
+    /// Which corners of elements are at each vertex.
+    struct Corners {
+        std::vector<std::vector<Corner>> at;  ///< [vertices]
+        std::vector<int> lengths;             ///< [items] how many
+
+        Corners(const Elements& elements, const VertexItems& items);
+    };
+    ElementRows(const std::string& name, const Elements& elements, const VertexItems& items,
+                const Corners& corners);
+
+    SlicedRows rows_;
+    Buffer<int> others_;
+    std::vector<Corner> corners_;  ///< [entries] element -1: fills a row up
+};
+
+}  // namespace weft

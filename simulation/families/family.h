@@ -1,0 +1,170 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulation/families/elements.h"
+#include "simulation/families/vertex_items.h"
+#include "simulation/mesh/vec3.h"
+#include "simulation/topology/stencil_layout.h"
+
+/// What the rest of the simulation asks of a family of elements. Nobody outside a family's own
+/// folder knows it by name: element_families.h has the list.
+namespace weft {
+
+/// The most corners that an element has.
+inline constexpr int kMaxCorners = 4;
+
+struct FamilyNames {
+    std::string name;    ///< of its folder, its buffers and its files of kernels: "hinges"
+    std::string title;   ///< in messages: "bending"
+    std::string energy;  ///< of its column in traces: "bend"
+};
+
+/// A state that is no state: what is wrong with which vertex.
+struct BadState {
+    int vertex = 0;  ///< new order
+    std::string what;
+};
+
+// ---- what the launches of the solvers work on ----
+
+/// XPBD.
+struct ProjectTarget {
+    Phase phase;
+    Buffer<float4>& positions;
+    /// [constraints of the family] a buffer for each
+    std::span<const std::unique_ptr<Buffer<float>>> multipliers;
+    float inverse_h2;  ///< 1 / h^2 [1/s^2]
+    int fresh;         ///< 1 in the first iteration of a substep: multipliers count as 0
+};
+
+/// Gradients and Hessian blocks of vertices.
+struct DerivativeTarget {
+    const Segments& segments;  ///< of the items
+    Buffer<float4>& positions;
+    Buffer<int>& vertices;  ///< of the items
+    Buffer<float>& sums;    ///< [9 * items], see kernels/descent/rows.h
+    int item_count = 0;
+    int fresh = 0;  ///< 1: overwrites what stands in the sums
+};
+
+/// Block descent: the launches that move vertices.
+struct SweepTarget {
+    Phase phase;
+    Buffer<float4>& positions;
+    VertexItems& items;
+    Buffer<float>& sums;  ///< of all elements, see kernels/descent/rows.h
+    Buffer<float4>& targets;
+    float inverse_h2;
+};
+
+/// The terms of the energy sum.
+struct TermTarget {
+    const Segments& items;
+    Buffer<float4>& positions;
+    Buffer<int>& slots;    ///< [elements] in `terms`
+    Buffer<float>& terms;  ///< [J]
+};
+
+/// A family seen from the vertices: per vertex a row of the elements that touch it.
+class DerivativeRows {
+public:
+    virtual ~DerivativeRows() = default;
+    /// Adds the family's part of each vertex' gradient and Hessian block.
+    virtual Launch gather(const DerivativeTarget& target) = 0;
+    /// Only of the gradients.
+    virtual Launch gather_gradients(const DerivativeTarget& target) = 0;
+};
+
+/// Elements whose vertices are computed together, in one sweep.
+class StencilSolve {
+public:
+    virtual ~StencilSolve() = default;
+    virtual Launch solve(const SweepTarget& target) = 0;
+};
+
+/// All elements of one kind that a model has, on the devices, and what solvers, reference and
+/// diagnostics do with them.
+class ElementFamily {
+public:
+    /// stencils: in the old order of vertices
+    ElementFamily(const FamilyNames& names, const Stencils& stencils, const Strips& strips)
+        : names_(names), elements_(names.name, stencils, strips) {}
+    virtual ~ElementFamily() = default;
+    ElementFamily(const ElementFamily&) = delete;
+    ElementFamily& operator=(const ElementFamily&) = delete;
+
+    const FamilyNames& names() const { return names_; }
+    /// What there is of it, in words for users.
+    virtual std::vector<std::string> parts() const { return {names_.title}; }
+    Elements& elements() { return elements_; }
+    const Elements& elements() const { return elements_; }
+    int count() const { return elements_.count(); }
+    /// The vertices of an element, in the new order.
+    std::span<const int> corners(int element) const { return elements_.vertices_of(element); }
+
+    // ---- XPBD ----
+
+    /// What to call the multipliers of the constraints that each element has; "" where it is one.
+    virtual std::vector<std::string> constraints() const { return {""}; }
+    virtual Launch project(const ProjectTarget& target) = 0;
+
+    // ---- methods that descend the step's energy ----
+
+    virtual std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const = 0;
+    virtual Launch energy_terms(const TermTarget& target) = 0;
+    /// Whether elements may be stencils of SOSD; else their vertices belong to other stencils or
+    /// are solved one by one.
+    virtual bool has_stencils() const { return false; }
+    /// Only where it has them. items: of the sweep; chosen: which elements are its stencils
+    virtual std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
+                                                        const StencilLayout::Family& chosen) const;
+
+    // ---- what changes by itself ----
+
+    /// Makes room for the substeps of a frame; before all else.
+    virtual void reserve(int /*substeps*/) {}
+    /// Fills in the frame that begins at `time` and has substeps of h [s]. In double precision, the
+    /// end of its first substep counts.
+    virtual void place(double /*time*/, double /*h*/) {}
+    /// The buffer that place() writes; null: nothing changes.
+    virtual BufferStorage* placed_buffer() { return nullptr; }
+
+    // ---- in double precision ----
+    // The element functions of kernels/energies/, compiled with real = double, on the material that
+    // the buffers hold. x: the positions of the element's corners [m].
+
+    /// [J]
+    virtual double energy(int element, const Vec3* x) const = 0;
+    /// dE/dx of each corner [N]
+    virtual void gradient(int element, const Vec3* x, Vec3* gradient) const = 0;
+    /// d2E/dx_jdx_k [N/m] as blocks[j * corners + k]; the exact one, which may be indefinite.
+    virtual void hessian(int element, const Vec3* x, Mat3* blocks) const = 0;
+
+    /// Of all elements [J]. positions: [vertices]
+    double total_energy(std::span<const float4> positions) const;
+    /// The first element whose stretch - 1 is beyond `most`, if the family has such a measure.
+    virtual std::optional<BadState> find_overstretched(std::span<const float4> /*positions*/,
+                                                       double /*most*/) const {
+        return std::nullopt;
+    }
+
+protected:
+    std::array<Vec3, kMaxCorners> positions_of(int element,
+                                               std::span<const float4> positions) const;
+    /// For find_overstretched(), where a stretch is a ratio of sizes, 1 at rest. what: an element
+    std::optional<BadState> first_beyond(double most, const char* what,
+                                         const std::function<double(int element)>& stretch) const;
+
+private:
+    FamilyNames names_;
+    Elements elements_;
+};
+
+}  // namespace weft

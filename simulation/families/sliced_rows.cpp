@@ -1,0 +1,26 @@
+#include "simulation/families/sliced_rows.h"
+
+#include <algorithm>
+
+namespace weft {
+
+SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_begin,
+                       std::span<const int> lengths)
+    : slices_(name, 2 * lengths.size()) {
+    for (std::size_t s = 0; s + 1 < segment_begin.size(); ++s) {
+        for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += kStride) {
+            const int end = std::min(first + kStride, segment_begin[s + 1]);
+            int longest = 0;
+            for (int i = first; i < end; ++i) {
+                longest = std::max(longest, lengths[static_cast<std::size_t>(i)]);
+            }
+            for (int i = first; i < end; ++i) {
+                slices_[2 * static_cast<std::size_t>(i)] = entry_count_ + i - first;
+                slices_[2 * static_cast<std::size_t>(i) + 1] = longest;
+            }
+            entry_count_ += kStride * longest;
+        }
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,64 @@
+#include "simulation/families/builder.h"
+#include "simulation/families/springs/attachments.h"
+#include "simulation/families/springs/springs.h"
+
+namespace weft {
+
+namespace {
+
+/// Edges of cloths, then attachments.
+class SpringsBuilder final : public FamilyBuilder {
+public:
+    SpringsBuilder() : FamilyBuilder({"springs", "springs", "stretch"}, 2) {}
+
+    void add(const ClothPart& part) override {
+        if (part.cloth.stretch.stiffness <= 0.0) return;
+        append(part.adjacency.edges, part.first_vertex);
+        fill(stiffness_, part.cloth.stretch.stiffness);
+        for (int e = 0; e < part.adjacency.edges.count(); ++e) {
+            const auto ends = part.adjacency.edges[e];
+            lengths_.push_back(part.rest.length_of(ends[0], ends[1]));
+        }
+        edge_count_ = stencils().count();
+    }
+
+    void add(const ScenePart& part) override {
+        for (const Attachment& attachment : part.scene.attachments) {
+            const auto ties = find_ties(attachment, part.scene, part.bodies, part.rest);
+            append(ties, 0);
+            fill(stiffness_, attachment.stiffness);
+            for (const auto& [a, b] : ties) {
+                lengths_.push_back(length(part.rest[static_cast<std::size_t>(a)] -
+                                          part.rest[static_cast<std::size_t>(b)]));
+            }
+        }
+    }
+
+    std::unique_ptr<ElementFamily> build(const Strips& strips,
+                                         std::span<const Vec3> /*rest*/) const override {
+        return std::make_unique<Springs>(names(), stencils(), strips, lengths_, stiffness_,
+                                         edge_count_);
+    }
+
+    std::vector<Absence> absences(const Scene& scene, bool exists) const override {
+        std::vector<Absence> list;
+        if (!exists) {
+            list.push_back({"springs", "no cloth has stretch.stiffness, and nothing is attached"});
+        }
+        if (scene.attachments.empty()) {
+            list.push_back({"attachments", "the scene has no [[attachment]]", false});
+        }
+        return list;
+    }
+
+private:
+    std::vector<double> lengths_;    ///< [springs] at rest [m]
+    std::vector<double> stiffness_;  ///< [springs] [N/m]
+    int edge_count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FamilyBuilder> make_springs_builder() { return std::make_unique<SpringsBuilder>(); }
+
+}  // namespace weft

@@ -1,0 +1,34 @@
+#include "simulation/families/in_double.h"
+// The language layer in double precision has to come before all else.
+#include "kernels/energies/stitch.h"
+#include "simulation/families/stitches/stitches.h"
+
+namespace weft {
+
+namespace {
+
+double rest_of(const Stitches& all, int stitch) {
+    return kernels::stitch_rest(all.start(stitch), all.rate(stitch), (*all.clock)[0]);
+}
+
+}  // namespace
+
+double Stitches::energy(int stitch, const Vec3* x) const {
+    return kernels::spring_energy(to_real3(x[0]), to_real3(x[1]), rest_of(*this, stitch),
+                                  stiffness(stitch));
+}
+
+void Stitches::gradient(int stitch, const Vec3* x, Vec3* gradient) const {
+    gradient[0] = to_vec3(kernels::spring_gradient(to_real3(x[0]), to_real3(x[1]),
+                                                   rest_of(*this, stitch), stiffness(stitch)));
+    gradient[1] = -gradient[0];
+}
+
+void Stitches::hessian(int stitch, const Vec3* x, Mat3* blocks) const {
+    const Mat3 block = to_mat3(kernels::spring_exact_hessian(
+        to_real3(x[0]), to_real3(x[1]), rest_of(*this, stitch), stiffness(stitch)));
+    blocks[0] = blocks[3] = block;
+    blocks[1] = blocks[2] = -1.0 * block;
+}
+
+}  // namespace weft

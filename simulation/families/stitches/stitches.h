@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+
+#include "simulation/families/family.h"
+
+namespace weft {
+
+/// A stitch as the scene has it.
+struct StitchMaterial {
+    double start;      ///< distance of its ends at time 0 [m]
+    double stiffness;  ///< [N/m]
+    double rate;       ///< one over the time that it takes to close [1/s]
+};
+
+/// Stitches of seams: kernels/energies/stitch.h.
+class Stitches final : public ElementFamily {
+public:
+    /// materials: per stitch, as given
+    Stitches(const FamilyNames& names, const Stencils& stitches, const Strips& strips,
+             std::span<const StitchMaterial> materials);
+
+    double start(int stitch) const { return column(0, stitch); }
+    double stiffness(int stitch) const { return 1.0 / column(1, stitch); }
+    double rate(int stitch) const { return column(2, stitch); }
+
+    Launch project(const ProjectTarget& target) override;
+    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
+    Launch energy_terms(const TermTarget& target) override;
+    void reserve(int substeps) override;
+    void place(double time, double h) override;
+    BufferStorage* placed_buffer() override { return clock.get(); }
+    // At the end of the placed frame's first substep.
+    double energy(int stitch, const Vec3* x) const override;
+    void gradient(int stitch, const Vec3* x, Vec3* gradient) const override;
+    void hessian(int stitch, const Vec3* x, Mat3* blocks) const override;
+
+    Buffer<float> material;  ///< [3 * count] column-major: start [m], compliance [m/N], rate [1/s]
+    std::unique_ptr<Buffer<float>> clock;  ///< [substeps] time at their ends [s]
+
+private:
+    double column(int k, int stitch) const {
+        return static_cast<double>(material[static_cast<std::size_t>(k * count() + stitch)]);
+    }
+};
+
+}  // namespace weft

@@ -1,0 +1,153 @@
+#include "simulation/model/load_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "simulation/topology/vertex_graph.h"
+
+namespace weft {
+
+namespace {
+
+constexpr int kFar = -1;
+constexpr double kStrainOfCloth = 0.005;
+constexpr double kStrainOfSolids = 0.001;
+constexpr double kLongestStep = 1.0 / 240.0;  ///< [s]
+constexpr int kMostSubsteps = 1000;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+VertexGraph make_graph(const Gathered& all, std::span<const Stencils> links) {
+    std::vector<Stencils> kinds(links.begin(), links.end());
+    Stencils triangles{3, {}};
+    for (const auto& t : all.triangles) {
+        triangles.vertices.insert(triangles.vertices.end(), t.begin(), t.end());
+    }
+    kinds.push_back(std::move(triangles));
+    return {static_cast<int>(all.rest.size()), kinds};
+}
+
+/// Goes through all that hangs together with the front, level by level; the front is on level 0.
+/// levels  [vertices] kFar where nobody was yet. Returns whom it met, by level.
+std::vector<int> flood(const VertexGraph& graph, std::vector<int> front, std::vector<int>& levels) {
+    for (const int v : front) levels[at(v)] = 0;
+    for (std::size_t next = 0; next < front.size(); ++next) {
+        for (const int w : graph.neighbours(front[next])) {
+            if (levels[at(w)] != kFar) continue;
+            levels[at(w)] = levels[at(front[next])] + 1;
+            front.push_back(w);
+        }
+    }
+    return front;
+}
+
+class PathFinder {
+public:
+    PathFinder(const Gathered& all, std::span<const Stencils> links)
+        : all_(all), graph_(make_graph(all, links)), seen_(all.rest.size(), kFar), levels_(seen_) {}
+
+    std::vector<LoadPath> find() {
+        std::vector<LoadPath> paths;
+        for (int v = 0; v < graph_.vertex_count(); ++v) {
+            if (seen_[at(v)] != kFar) continue;
+            const std::vector<int> part = flood(graph_, {v}, seen_);
+            if (part.size() > 1) paths.push_back(path_of(part));
+        }
+        return paths;
+    }
+
+private:
+    LoadPath path_of(const std::vector<int>& part) {
+        LoadPath path;
+        path.levels = levels_of(part);
+        path.edge = mean_edge(part);
+        const std::map<std::size_t, double> masses = masses_of(part);
+        double mass = 0.0;
+        for (const auto& [body, own] : masses) mass += own;
+        const auto lightest =
+            std::ranges::min_element(masses, {}, [](const auto& entry) { return entry.second; });
+        path.body = all_.bodies[lightest->first].name;
+        path.burden = lightest->second > 0.0 ? mass / lightest->second : 1.0;
+        path.is_solid = std::ranges::all_of(
+            masses, [&](const auto& entry) { return all_.bodies[entry.first].kind == "solid"; });
+        return path;
+    }
+
+    /// Of the bodies that the part belongs to. A solid's inside is on no triangle: it counts whole.
+    std::map<std::size_t, double> masses_of(const std::vector<int>& part) const {
+        std::map<std::size_t, double> masses;
+        for (const int v : part) masses[body_of(v)] += all_.masses[at(v)];
+        for (auto& [number, mass] : masses) {
+            const BodyRange& body = all_.bodies[number];
+            if (body.kind != "solid") continue;
+            const auto first = all_.masses.begin() + body.first_vertex;
+            mass = std::accumulate(first, first + body.vertex_count, 0.0);
+        }
+        return masses;
+    }
+
+    double levels_of(const std::vector<int>& part) {
+        std::vector<int> held;
+        for (const int v : part) {
+            if (all_.held[at(v)] != 0) held.push_back(v);
+        }
+        if (!held.empty()) return farthest(held, part).second;
+        return 0.5 * farthest({farthest({part.front()}, part).first}, part).second;
+    }
+
+    /// A vertex of the part that is farthest from the front, and its level.
+    std::pair<int, int> farthest(const std::vector<int>& front, const std::vector<int>& part) {
+        for (const int v : part) levels_[at(v)] = kFar;
+        const int last = flood(graph_, front, levels_).back();
+        return {last, levels_[at(last)]};
+    }
+
+    double mean_edge(const std::vector<int>& part) const {
+        double sum = 0.0;
+        double count = 0.0;
+        for (const int v : part) {
+            for (const int w : graph_.neighbours(v)) {
+                sum += length(all_.rest[at(v)] - all_.rest[at(w)]);
+                count += 1.0;
+            }
+        }
+        return sum / count;
+    }
+
+    std::size_t body_of(int vertex) const {
+        const auto behind =
+            std::ranges::upper_bound(all_.bodies, vertex, {}, &BodyRange::first_vertex);
+        return static_cast<std::size_t>(behind - all_.bodies.begin()) - 1;
+    }
+
+    const Gathered& all_;
+    VertexGraph graph_;
+    std::vector<int> seen_, levels_;  ///< [vertices]
+};
+
+}  // namespace
+
+std::vector<LoadPath> load_paths(const Gathered& all, std::span<const Stencils> links) {
+    return PathFinder(all, links).find();
+}
+
+double unfinished_strain(const LoadPath& path, double h, int iterations, double gravity) {
+    const double edge = std::max(path.edge, 1e-9);
+    return 2.0 * gravity * h * h * path.levels * path.burden / (iterations * edge);
+}
+
+int believable_substeps(std::span<const LoadPath> paths, double dt, int iterations,
+                        double gravity) {
+    double substeps = dt / kLongestStep;
+    for (const LoadPath& path : paths) {
+        const double wanted = path.is_solid ? kStrainOfSolids : kStrainOfCloth;
+        const double strain = unfinished_strain(path, dt, iterations, gravity);
+        substeps = std::max(substeps, std::sqrt(strain / wanted));
+    }
+    constexpr double kRounding = 1e-6;  // 0.016666667 is a sixtieth of a second
+    return static_cast<int>(std::min(std::ceil(substeps - kRounding), double{kMostSubsteps}));
+}
+
+}  // namespace weft

@@ -1,0 +1,62 @@
+#include "simulation/run_description.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "simulation/bodies/mesh_files.h"
+#include "simulation/diagnostics.h"
+
+namespace weft {
+
+namespace {
+
+TextPairs settings_of(const Model& model) {
+    const Scene& scene = model.scene;
+    TextPairs settings{{"method", std::string(name_of(scene.solver.method))},
+                       {"frames", std::to_string(scene.frames)},
+                       {"dt", fmt::format("{}", scene.dt)},
+                       {"substeps", std::to_string(scene.substeps)},
+                       {"iterations", std::to_string(scene.solver.iterations)},
+                       {"vertices", std::to_string(model.vertex_count())},
+                       {"strips", std::to_string(model.strips.count())}};
+    if (!scene.overrides.empty()) {
+        settings.emplace_back("set", fmt::format("{}", fmt::join(scene.overrides, "\n")));
+    }
+    return settings;
+}
+
+DeviceDescription describe(const DeviceInfo& info) {
+    return {info.name,
+            info.kind,
+            info.driver,
+            static_cast<std::uint32_t>(info.units),
+            std::string(name_of(info.memory)),
+            info.strict};
+}
+
+}  // namespace
+
+RunDescription describe_run(const Model& model, const Solver& solver,
+                            const std::vector<std::unique_ptr<Device>>& devices) {
+    const Scene& scene = model.scene;
+    RunDescription run;
+    run.scene_name = scene.name;
+    run.scene_text = scene.text;
+    if (!scene.path.empty()) run.scene_path = std::filesystem::absolute(scene.path).string();
+    for (const BodyMesh& mesh : mesh_files(scene)) {
+        run.meshes.emplace_back(mesh.body, file_hash(mesh.path));
+    }
+    run.settings = settings_of(model);
+    for (const auto& device : devices) {
+        run.devices.push_back(describe(device->info()));
+        if (device->info().memory != MemoryModel::kHost && devices.size() > 1)
+            run.has_transfers = true;
+    }
+    run.kinds = solver.kinds();
+    run.energies = energy_names(model);
+    return run;
+}
+
+}  // namespace weft

@@ -1,0 +1,80 @@
+#include "simulation/start_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/families/convert.h"
+
+namespace weft {
+
+namespace {
+
+/// The vertices of one body that start inside one obstacle.
+struct Inside {
+    std::vector<int> vertices;  ///< the body's own numbers, the first few
+    int count = 0;
+    double deepest = 0.0;  ///< [m]
+    double energy = 0.0;   ///< [J] that they get if they are pushed out in one substep
+};
+
+Inside find_inside(const Model& model, const BodyRange& body, const Obstacle& obstacle) {
+    constexpr std::size_t kNamed = 3;
+    Inside inside;
+    for (int own = 0; own < body.vertex_count; ++own) {
+        const int v = model.strips.rank[static_cast<std::size_t>(body.first_vertex + own)];
+        const float4& x = (*model.positions)[static_cast<std::size_t>(v)];
+        if (x.w == 0.0f) continue;  // obstacles do not push what is held
+        const double depth = -distance_to(obstacle, to_vec3(x), 0.0);
+        if (depth <= 0.0) continue;
+        if (inside.vertices.size() < kNamed) inside.vertices.push_back(own);
+        ++inside.count;
+        inside.deepest = std::max(inside.deepest, depth);
+        const double speed = depth / model.h;
+        inside.energy += 0.5 * model.masses[static_cast<std::size_t>(v)] * speed * speed;
+    }
+    return inside;
+}
+
+void warn_of_inside(const Model& model, const Obstacle& obstacle, Warnings& warnings) {
+    for (const BodyRange& body : model.bodies) {
+        const Inside inside = find_inside(model, body, obstacle);
+        if (inside.count == 0) continue;
+        warnings.push_back(fmt::format(
+            "{} of {} vertices of {} '{}' start inside obstacle '{}' (the first: {}), up to {:.3g} "
+            "m deep; the first substep pushes them out, at up to {:.3g} m/s and with {:.3g} J: "
+            "move one of the two",
+            inside.count, body.vertex_count, body.kind, body.name, obstacle.name,
+            fmt::join(inside.vertices, ", "), inside.deepest, inside.deepest / model.h,
+            inside.energy));
+    }
+}
+
+/// A sweep takes the way of a vertex as straight in the obstacle's frame. Within this angle the way
+/// of a resting vertex bulges out of it by less than a tenth of its distance from the axis.
+constexpr double kLargestTurn = 45.0;  // [degrees]
+
+void warn_of_turns(const Model& model, const Obstacle& obstacle, Warnings& warnings) {
+    if (!obstacle.motion || !std::isfinite(obstacle.half_width)) return;
+    const FastestTurn turn = fastest_turn(*obstacle.motion);
+    if (turn.rate * model.h <= kLargestTurn) return;
+    const Scene& scene = model.scene;
+    warnings.push_back(fmt::format(
+        "obstacle '{}' turns by {:.3g} degrees in one substep of frame {}: cloth in its way may be "
+        "passed or pushed too far; it takes {} substeps",
+        obstacle.name, turn.rate * model.h, static_cast<int>(turn.time / scene.dt),
+        static_cast<long>(std::ceil(turn.rate * scene.dt / kLargestTurn - 1e-6))));
+}
+
+}  // namespace
+
+void warn_of_start(const Model& model, Warnings& warnings) {
+    for (const Obstacle& obstacle : model.scene.obstacles) {
+        warn_of_inside(model, obstacle, warnings);
+        warn_of_turns(model, obstacle, warnings);
+    }
+}
+
+}  // namespace weft

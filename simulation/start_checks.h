@@ -1,0 +1,11 @@
+#pragma once
+
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// Says what of a scene is no mistake, but will surprise in the run: bodies that start inside
+/// obstacles, and obstacles that turn too far in a substep for their sweep to follow.
+void warn_of_start(const Model& model, Warnings& warnings);
+
+}  // namespace weft

@@ -1,0 +1,76 @@
+#include "runtime/io/cache_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace weft::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CacheTest : public testing::Test {
+protected:
+    CacheTest() { fs::remove_all(folder_); }
+    ~CacheTest() override { fs::remove_all(folder_); }
+
+    fs::path folder_ = fs::path(testing::TempDir()) / "weft_cache";
+    fs::path file_ = folder_ / "below" / "file";
+};
+
+TEST_F(CacheTest, GivesBackWhatWasWritten) {
+    EXPECT_EQ(read_cached(file_), "");
+    write_cached(file_, "one");
+    write_cached(file_, "two");
+    EXPECT_EQ(read_cached(file_), "two");
+}
+
+// Threads have one process number, as two processes on two machines may have.
+TEST_F(CacheTest, IsWholeWhoeverElseWrites) {
+    constexpr std::size_t kBytes = 1 << 18;
+    std::atomic<int> writing = 8;
+    {
+        std::vector<std::jthread> writers;
+        for (char letter = 'a'; letter < 'a' + 8; ++letter) {
+            writers.emplace_back([&, letter] {
+                for (int i = 0; i < 20; ++i) write_cached(file_, std::string(kBytes, letter));
+                --writing;
+            });
+        }
+        while (writing > 0) {
+            const std::string read = read_cached(file_);
+            if (read.empty()) continue;
+            ASSERT_EQ(read, std::string(kBytes, read[0]));
+        }
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(file_.parent_path()), {}), 1);
+}
+
+TEST_F(CacheTest, WhatCannotBeWrittenIsPassedOver) {
+    write_cached(folder_, "a file where a folder would have to be");
+    write_cached(file_, "one");
+    EXPECT_EQ(read_cached(file_), "");
+}
+
+TEST_F(CacheTest, OneAtATimeHasTheLock) {
+    int count = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (int t = 0; t < 8; ++t) {
+            threads.emplace_back([&] {
+                for (int i = 0; i < 100; ++i) {
+                    const CacheLock lock(file_);
+                    volatile int seen = count;
+                    std::this_thread::yield();
+                    count = seen + 1;
+                }
+            });
+        }
+    }
+    EXPECT_EQ(count, 800);
+}
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,219 @@
+// Bodies that nothing holds: whatever the sweeps left unfinished, their momentum is that of
+// physics.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <random>
+
+#include "runtime/tbb/cpu_device.h"
+#include "simulation/families/convert.h"
+#include "simulation/scene/read_scene.h"
+#include "tests/simulation/run/physics.h"
+
+namespace weft::test {
+namespace {
+
+/// A tube whose vertices are thrown about on its surface: edges of all lengths, hinges of all
+/// stiffnesses, slivers; nothing that an unfinished sweep would leave in balance.
+std::string irregular_tube() {
+    const int around = 24, along = 20;
+    const std::string path =
+        (std::filesystem::temp_directory_path() / "weft_irregular_tube.obj").string();
+    std::ofstream file(path);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> away(-0.45, 0.45);
+    for (int j = 0; j < along; ++j) {
+        for (int i = 0; i < around; ++i) {
+            const double angle = 2.0 * std::numbers::pi * (i + away(random)) / around;
+            file << "v " << 0.1 * std::cos(angle) << ' ' << 0.02 * (j + away(random)) << ' '
+                 << 0.1 * std::sin(angle) << '\n';
+        }
+    }
+    for (int j = 0; j + 1 < along; ++j) {
+        for (int i = 0; i < around; ++i) {
+            const int a = j * around + i + 1, b = j * around + (i + 1) % around + 1;
+            file << "f " << a << ' ' << b << ' ' << a + around << '\n';
+            file << "f " << b << ' ' << b + around << ' ' << a + around << '\n';
+        }
+    }
+    return path;
+}
+
+const std::string kTube = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 4
+gravity = [1.0, -9.81, 0.5]
+[solver]
+iterations = 8
+[[cloth]]
+mesh = "TUBE"
+translate = [0.3, 2.0, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e4 }
+bend = { stiffness = 1.0e-4 }
+)";
+
+/// A block that a cloth is tied to, and a stray cloth beside them: two free bodies.
+const std::string kTied = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 3
+[solver]
+iterations = 2
+[[cloth]]
+name = "sheet"
+grid = { size = [0.5, 0.5], resolution = [9, 9] }
+translate = [0.0, 0.11, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e4 }
+bend = { stiffness = 1.0e-3 }
+[[cloth]]
+name = "stray"
+grid = { size = [0.5, 2.0], resolution = [9, 60] }
+translate = [2.0, 0.0, 0.0]
+density = 0.3
+stretch = { stiffness = 1.0e3 }
+[[solid]]
+name = "block"
+grid = { size = [0.2, 0.2, 0.2], resolution = [4, 4, 4] }
+density = 500.0
+young = 1.0e6
+poisson = 0.4
+[[attachment]]
+a = "sheet"
+b = "block"
+box = [[-0.2, 0.0, -0.2], [0.2, 1.0, 0.2]]
+stiffness = 2.0e3
+)";
+
+Scene scene_of(std::string text, Method method) {
+    if (const auto at = text.find("TUBE"); at != std::string::npos) {
+        text.replace(at, 4, irregular_tube());
+    }
+    Scene scene = parse_scene(text, "test.toml");
+    scene.solver.method = method;
+    return scene;
+}
+
+struct Momentum {
+    Vec3 place;     ///< mean, weighted with the masses [m]
+    Vec3 velocity;  ///< likewise [m/s]
+};
+
+/// Of the vertices [first, first + count) in scene order.
+Momentum momentum_of(const ManualRun& run, int first, int count) {
+    Momentum sum;
+    double mass = 0.0;
+    const auto x = positions(run);
+    const auto u = velocities(run);
+    for (int v = first; v < first + count; ++v) {
+        const auto rank =
+            static_cast<std::size_t>(run.model->strips.rank[static_cast<std::size_t>(v)]);
+        const double m = run.model->masses[rank];
+        sum.place = sum.place + m * at(x, v);
+        sum.velocity = sum.velocity + m * at(u, v);
+        mass += m;
+    }
+    return {(1.0 / mass) * sum.place, (1.0 / mass) * sum.velocity};
+}
+
+class FreeBody : public testing::TestWithParam<Method> {};
+
+TEST_P(FreeBody, FallsAsFreelyAfterAnyNumberOfIterations) {
+    constexpr int kFrames = 20;
+    for (const int iterations : {1, 2, 8}) {
+        Scene scene = scene_of(kTube, GetParam());
+        scene.solver.iterations = iterations;
+        ManualRun run(scene);
+        const int count = run.model->vertex_count();
+        const Momentum start = momentum_of(run, 0, count);
+        run.run(kFrames);
+        const Momentum end = momentum_of(run, 0, count);
+        const Fall fall = free_fall(scene, 0.0, kFrames);
+        EXPECT_LT(length(end.place - start.place - fall.x), 5e-5) << iterations << " iterations";
+        EXPECT_LT(length(end.velocity - fall.v), 5e-4) << iterations << " iterations";
+    }
+}
+
+TEST_P(FreeBody, KeepsItsMomentumWhereItIsTorn) {
+    for (const int iterations : {1, 3, 10}) {
+        Scene scene = scene_of(kTied, GetParam());
+        scene.gravity = {};
+        scene.solver.iterations = iterations;
+        ManualRun run(scene);
+        for (float4& x : run.model->positions->span()) {
+            x = {1.02f * x.x + 0.01f * x.z, x.y + 0.05f * x.x * x.x, 0.98f * x.z, x.w};
+        }
+        run.changed(*run.model->positions);
+        double fastest = 0.0;
+        for (int frame = 0; frame < 6; ++frame) {
+            run.run(1);
+            for (const float4& u : run.model->velocities->span()) {
+                fastest = std::max(fastest, length(to_vec3(u)));
+            }
+            const int sheet = 9 * 9, stray = 9 * 60, block = 4 * 4 * 4;
+            const Vec3 stray_velocity = momentum_of(run, sheet, stray).velocity;
+            EXPECT_LT(length(stray_velocity), 1e-4) << "frame " << frame;
+            // The block is 4 kg, the sheet 0.05.
+            const Momentum cloth = momentum_of(run, 0, sheet);
+            const Momentum solid = momentum_of(run, sheet + stray, block);
+            EXPECT_LT(length(0.05 * cloth.velocity + 4.0 * solid.velocity), 4.05 * 1e-4);
+        }
+        EXPECT_GT(fastest, 0.05) << "it moves";
+    }
+}
+
+/// The impulse of a plane is all that may change the momentum; afterwards nothing falls through.
+TEST_P(FreeBody, LandsOnAnObstacleAndStaysOutOfIt) {
+    Scene scene = scene_of(kTube + R"(
+[[obstacle]]
+shape = "plane"
+point = [0.0, 1.9, 0.0]
+thickness = 0.002
+)",
+                           GetParam());
+    scene.gravity = {0.0, -9.81, 0.0};
+    ManualRun run(scene);
+    run.run(40);
+    float lowest = 10.0f;
+    for (const float4& x : run.model->positions->span()) lowest = std::min(lowest, x.y);
+    EXPECT_GT(lowest, 1.902f - 1e-5f);
+    EXPECT_LT(lowest, 1.91f) << "it lies on it";
+}
+
+TEST_P(FreeBody, IsTheSameForEveryCut) {
+    const Scene scene = scene_of(kTied, GetParam());
+    const auto opened = [] {
+        std::vector<std::unique_ptr<Device>> devices;
+        for (int i = 0; i < 2; ++i) devices.push_back(make_cpu_device(1, {}));
+        return devices;
+    };
+    ManualRun run(scene, opened());
+    ASSERT_GE(run.strip_count(), 4);
+    std::string expected;
+    for (int cut = 0; cut <= run.strip_count(); ++cut) {
+        run.reset();
+        run.run(3, Division{{cut, run.strip_count() - cut}});
+        if (cut == 0) expected = run.hash();
+        EXPECT_EQ(run.hash(), expected) << "cut at strip " << cut;
+    }
+}
+
+TEST_P(FreeBody, HasNoTaskWhereThereIsNone) {
+    Scene scene = scene_of(kTube, GetParam());
+    scene.cloths[0].pins.emplace_back().vertices = {0};
+    ManualRun held(scene);
+    for (const std::string& kind : held.solver->kinds()) EXPECT_NE(kind, "momentum");
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, FreeBody, kMethods, name_of_method);
+
+}  // namespace
+}  // namespace weft::test

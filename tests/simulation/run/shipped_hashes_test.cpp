@@ -1,0 +1,89 @@
+// What the shipped scenes come to, by every solver: their first two frames on one core.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+
+namespace weft::test {
+namespace {
+
+struct Shipped {
+    const char* scene;
+    Method method;
+    /// Where results are meant to change, copy the new one from the message, and say in the change
+    /// log that they changed.
+    const char* hash;
+};
+
+const Shipped kShipped[] = {
+    {"sheet", Method::kXpbd, "587ebaa97dea1eab7ecf46db7d8775de"},
+    {"sheet", Method::kVbd, "0dde1e5a80a085dab59a1d0c39e6ce3d"},
+    {"sheet", Method::kSosd, "351018342033c098dea001a51ae22d50"},
+    {"sheet", Method::kJpgd, "494eab319c3be460411624c53dff1bcb"},
+    {"beams", Method::kXpbd, "a2873b8680f776c1f2c8ec683d4ed7f2"},
+    {"beams", Method::kVbd, "d35da203e88f0f8e0f9722139d61c957"},
+    {"beams", Method::kSosd, "e59a7841b0bf9783284166f2393afe36"},
+    {"beams", Method::kJpgd, "c106c86297b1123193076127246422eb"},
+    {"hammock", Method::kXpbd, "af152f4766fd8820b8554038bb58b28c"},
+    {"hammock", Method::kVbd, "536463dd0ccc5e698c4141538926075f"},
+    {"hammock", Method::kSosd, "f95c507622fbe8f2971bd526723c126e"},
+    {"hammock", Method::kJpgd, "8663fc93ac57f4e17131468bf093be49"},
+    {"tablecloth", Method::kXpbd, "ac3803c8a2f370300f5316c7ccd3d25a"},
+    {"tablecloth", Method::kVbd, "4ec49eb0987397d55f7ac58f76dcd4a1"},
+    {"tablecloth", Method::kSosd, "2a657642ed43168e3a69fb58596577e1"},
+    {"tablecloth", Method::kJpgd, "6bb1a767f2babed78702a6d23457b4b5"},
+    {"skirt", Method::kXpbd, "1f941d1519eb5440eb22682f11f852b4"},
+    {"skirt", Method::kVbd, "548746c1e10ce4ca774362deaca420d9"},
+    {"skirt", Method::kSosd, "02e0357fea43fee11bb7e2193632af8d"},
+    {"skirt", Method::kJpgd, "b42fa612785bcfa0a43737abaaa50c34"},
+    {"flag", Method::kXpbd, "0608408e72a6eda2a95e0fde49ddf1d0"},
+    {"flag", Method::kVbd, "bc30f1deea206df974786de1ba9154ea"},
+    {"flag", Method::kSosd, "765b74329ea8364bdb67ddf157f77df9"},
+    {"flag", Method::kJpgd, "189852917c9b69d9bac7d66e49291648"},
+};
+
+std::string hash_after_two_frames(const Scene& scene) {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = "cpu/1";
+    Simulation simulation(scene, options, warnings);
+    for (int frame = 0; frame < 2; ++frame) simulation.advance();
+    return simulation.hash();
+}
+
+class ShippedScenes : public testing::TestWithParam<Shipped> {};
+
+TEST_P(ShippedScenes, HaveTheirHash) {
+#ifndef __linux__
+    GTEST_SKIP() << "the sines of other C libraries are rounded otherwise";
+#endif
+    Scene scene = read_scene(std::string(WEFT_SCENES) + "/" + GetParam().scene + ".toml");
+    scene.solver.method = GetParam().method;
+    EXPECT_EQ(hash_after_two_frames(scene), GetParam().hash);
+}
+
+/// Bending that is flat at rest is what it was before rest shapes could be curved.
+TEST_P(ShippedScenes, SkirtWithFlatRestHasItsOldHash) {
+#ifndef __linux__
+    GTEST_SKIP() << "the sines of other C libraries are rounded otherwise";
+#endif
+    const std::map<Method, std::string> kOld{{Method::kXpbd, "9fa93d78767c8aff2bb3b57a39d685dd"},
+                                             {Method::kVbd, "df3fd301e2891bc14fcbab03fb24ebda"},
+                                             {Method::kSosd, "a757e79f8293384321b3cd3da3c1f598"},
+                                             {Method::kJpgd, "66d1a7bb1bed21419505385a6ef537a6"}};
+    if (std::string(GetParam().scene) != "skirt") return;
+    Scene scene = read_scene(std::string(WEFT_SCENES) + "/skirt.toml");
+    scene.solver.method = GetParam().method;
+    scene.cloths[0].bend->rest_is_flat = true;
+    EXPECT_EQ(hash_after_two_frames(scene), kOld.at(GetParam().method));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScenes, testing::ValuesIn(kShipped), [](const auto& given) {
+    return std::string(given.param.scene) + "_" + std::string(name_of(given.param.method));
+});
+
+}  // namespace
+}  // namespace weft::test

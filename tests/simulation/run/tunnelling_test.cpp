@@ -1,0 +1,210 @@
+// Nothing passes an obstacle between two substeps, however fast the one or the other is.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "tests/simulation/run/physics.h"
+
+namespace weft::test {
+namespace {
+
+class Tunnelling : public EverySolver {};
+
+const std::string kSheet = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 4
+[solver]
+iterations = 8
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [20, 20] }
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+)";
+
+const std::string kBall = R"(
+[[obstacle]]
+name = "ball"
+shape = "sphere"
+center = [0.0, 6.0, 0.0]
+radius = 0.3
+motion = { velocity = [0.0, -1000.0, 0.0] }
+)";
+
+const std::string kPlate = R"(
+[[obstacle]]
+shape = "box"
+center = [0.0, -0.6, 0.0]
+size = [4.0, 0.002, 4.0]
+)";
+
+int count_swept(const Model& model) {
+    int count = 0;
+    const auto rows = model.obstacles->placements().span();
+    for (std::size_t row = 7; row < rows.size(); row += 8) count += rows[row].z > 0.0f ? 1 : 0;
+    return count;
+}
+
+/// The least distance from the origin on the straight way between two points.
+double least_distance(Vec3 a, Vec3 b) {
+    const Vec3 way = b - a;
+    const double part =
+        dot(way, way) > 0.0 ? std::clamp(-dot(a, way) / dot(way, way), 0.0, 1.0) : 0;
+    return length(a + part * way);
+}
+
+TEST_P(Tunnelling, SphereAt1000MetresPerSecondFliesThroughNoVertex) {
+    Scene scene = scene_of(kSheet + kBall);
+    scene.dt /= 4.0;
+    scene.substeps = 1;
+    const auto centre = [&](int frame) { return Vec3{0.0, 6.0 - 1000.0 * scene.dt * frame, 0.0}; };
+    ManualRun run(scene);
+    auto before = positions(run);
+    double fastest = 0.0;
+    for (int frame = 0; frame < 8; ++frame) {
+        run.run(1);
+        const auto now = positions(run);
+        for (int v = 0; v < run.model->vertex_count(); ++v) {
+            ASSERT_GT(least_distance(at(before, v) - centre(frame), at(now, v) - centre(frame + 1)),
+                      0.3 - 1e-3)
+                << "vertex " << v << " in step " << frame;
+            fastest = std::max(fastest, length(at(velocities(run), v)));
+        }
+        before = now;
+    }
+    EXPECT_GT(fastest, 500.0) << "it was hit";
+}
+
+TEST_P(Tunnelling, ThinPlateStopsWhatFallsAt100MetresPerSecond) {
+    ManualRun run(scene_of(kSheet + kPlate));
+    for (float4& v : run.model->velocities->span()) v.y = -100.0f;
+    run.changed(*run.model->velocities);
+    for (int frame = 0; frame < 4; ++frame) {
+        run.run(1);
+        for (const float4& x : run.model->positions->span()) ASSERT_GT(x.y, -0.6f);
+    }
+}
+
+/// Three metres of stretch snap back in one frame, towards a wall on each side. Nothing that is
+/// known at its start says so.
+TEST_P(Tunnelling, WhatGetsFastWithinAFrameIsSweptInASecondRunOfIt) {
+    const std::string walls = R"(
+[[obstacle]]
+shape = "box"
+center = [0.8, 0.0, 0.0]
+size = [0.02, 4.0, 4.0]
+[[obstacle]]
+shape = "box"
+center = [-0.8, 0.0, 0.0]
+size = [0.02, 4.0, 4.0]
+)";
+    Scene scene = scene_of(kSheet + walls);
+    scene.gravity = {};
+    scene.substeps = 1;
+    scene.solver.iterations = 60;
+    const auto stretched = [](std::vector<float> x) {
+        for (std::size_t k = 0; k < x.size(); k += 3) x[k] *= 4.0f;
+        return x;
+    };
+    const auto count_passed = [](const std::vector<float>& start, const std::vector<float>& end) {
+        int passed = 0;
+        for (std::size_t k = 0; k < start.size(); k += 3) {
+            passed += std::abs(start[k]) > 0.82f && std::abs(end[k]) < 0.8f ? 1 : 0;
+        }
+        return passed;
+    };
+    ManualRun unwatched(scene);
+    unwatched.redoes_frames = false;
+    const auto start = stretched(positions(unwatched));
+    auto& x = *unwatched.model->positions;
+    for (float4& row : x.span()) row.x *= 4.0f;
+    unwatched.changed(x);
+    unwatched.run(1);
+    EXPECT_GT(count_passed(start, positions(unwatched)), 0) << "nothing to be seen here";
+
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = "cpu/1";
+    Simulation simulation(scene, options, warnings);
+    simulation.start_from(0, start, std::vector<float>(start.size()));
+    simulation.advance();
+    EXPECT_EQ(count_passed(start, simulation.positions()), 0);
+}
+
+TEST_P(Tunnelling, ScenesInWhichNothingIsFastSweepNothing) {
+    for (const std::string& obstacle : {kBall, kPlate}) {
+        Scene scene = scene_of(kSheet + obstacle);
+        scene.obstacles[0].thickness = 0.01;
+        if (scene.obstacles[0].motion) scene.obstacles[0].motion->velocity = {0.0, -5.0, 0.0};
+        ManualRun run(scene);
+        run.run(2);
+        EXPECT_EQ(count_swept(*run.model), 0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Tunnelling, kMethods, name_of_method);
+
+Warnings warnings_of(const std::string& text) {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = "cpu/1";
+    options.calibrate = false;
+    Simulation simulation(parse_scene(text, "test.toml"), options, warnings);
+    return warnings;
+}
+
+TEST(StartChecks, SayWhatStartsInsideAnObstacle) {
+    const std::string sphere = R"(
+[[obstacle]]
+name = "ball"
+shape = "sphere"
+center = [0.0, -0.1, 0.0]
+radius = RADIUS
+)";
+    const auto with_radius = [&](const char* radius) {
+        std::string text = kSheet + sphere;
+        return warnings_of(text.replace(text.find("RADIUS"), 6, radius));
+    };
+    EXPECT_TRUE(with_radius("0.1").empty()) << "touching is not inside";
+    const Warnings warnings = with_radius("0.12");
+    ASSERT_EQ(warnings.size(), 1U);
+    // Vertices are at odd multiples of 1/38 m: four are within sqrt(0.12^2 - 0.1^2) = 0.066 m. They
+    // are 0.12 - hypot(0.1, sqrt(2) / 38) = 0.0133 m deep, a substep is 4.17 ms.
+    EXPECT_TRUE(
+        warnings[0].starts_with("4 of 400 vertices of cloth 'cloth0' start inside obstacle "
+                                "'ball' (the first: 189, 190, 209), up to 0.0133 m deep"))
+        << warnings[0];
+}
+
+TEST(StartChecks, SayWhichObstacleTurnsTooFast) {
+    const std::string fan = R"(
+[[obstacle]]
+name = "fan"
+shape = "box"
+center = [0.0, -2.0, 0.0]
+size = [1.0, 0.1, 0.1]
+motion.keyframes = [
+    { time = 0.0 }, { time = 0.1, rotate = 10.0 }, { time = 0.2, rotate = SPEED }
+]
+)";
+    const auto with_turn = [&](const char* speed) {
+        std::string text = kSheet + fan;
+        return warnings_of(text.replace(text.find("SPEED"), 5, speed));
+    };
+    EXPECT_TRUE(with_turn("1000.0").empty());
+    const Warnings warnings = with_turn("2170.0");  // 21600 degrees/s: 90 in a substep
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_TRUE(
+        warnings[0].starts_with("obstacle 'fan' turns by 90 degrees in one substep of "
+                                "frame 5"))
+        << warnings[0];
+    EXPECT_TRUE(warnings[0].ends_with("it takes 8 substeps")) << warnings[0];
+}
+
+}  // namespace
+}  // namespace weft::test
