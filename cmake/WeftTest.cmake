@@ -1,5 +1,5 @@
-# Tests. Labels: unit kernels scheduler determinism cli cluster stability fuzz install bench-smoke
-# timing.
+# Tests. Labels: unit kernels scheduler determinism cli cluster stability fuzz install bench-smoke.
+# No test asserts a time: how long things take tell the benchmarks.
 #
 #   weft_test(NAME strips LABELS unit SOURCES strips_test.cpp LIBS weft::simulation)
 #       One GoogleTest program, test_<name>, and one ctest entry for all of it: a process builds
@@ -21,8 +21,7 @@
 # `<name>.oclgrind`. The interpreter is about a thousand times slower than a device, so
 # OCLGRIND_FILTER <gtest filter> chooses its small cases, and OCLGRIND_FILTER none leaves it out.
 #
-# All take TIMEOUT <seconds> (default 300). Entries labelled `timing` or `bench-smoke` measure time,
-# and run alone.
+# All take TIMEOUT <seconds> (default 300). Entries labelled `bench-smoke` run alone.
 
 find_package(GTest REQUIRED)
 
@@ -117,7 +116,7 @@ function(weft_set_test_properties name labels timeout)
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
                        ENVIRONMENT "${WEFT_TEST_ENVIRONMENT}")
-  if(labels MATCHES "timing|bench-smoke")
+  if(labels MATCHES "bench-smoke")
     set_tests_properties(${name} PROPERTIES RUN_SERIAL ON)
   endif()
 endfunction()
