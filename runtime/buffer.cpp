@@ -22,18 +22,28 @@ void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
+std::shared_ptr<void> zeroed_pages(std::size_t bytes) {
+    const std::size_t page = bytes < kHugePage ? kPage : kHugePage;
+    const std::size_t whole_pages = (bytes / page + 1) * page;
+    std::shared_ptr<void> memory(std::aligned_alloc(page, whole_pages), std::free);
+    if (memory == nullptr) throw std::bad_alloc();
+    if (page == kHugePage) ask_for_huge_pages(memory.get(), whole_pages);
+    std::memset(memory.get(), 0, whole_pages);
+    return memory;
+}
+
 }  // namespace
 
 BufferStorage::BufferStorage(std::string name, std::size_t count, std::size_t element_size)
-    : name_(std::move(name)), count_(count), element_size_(element_size) {
-    const std::size_t page = bytes() < kHugePage ? kPage : kHugePage;
-    const std::size_t whole_pages = (bytes() / page + 1) * page;
-    host_ = std::aligned_alloc(page, whole_pages);
-    if (host_ == nullptr) throw std::bad_alloc();
-    if (page == kHugePage) ask_for_huge_pages(host_, whole_pages);
-    std::memset(host_, 0, whole_pages);
-}
+    : name_(std::move(name)),
+      count_(count),
+      element_size_(element_size),
+      host_(zeroed_pages(bytes())) {}
 
-BufferStorage::~BufferStorage() { std::free(host_); }
+void BufferStorage::resize(std::size_t count) {
+    count_ = count;
+    host_ = zeroed_pages(bytes());
+    ++generation_;
+}
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -16,7 +17,7 @@ namespace weft {
 class BufferStorage {
 public:
     BufferStorage(std::string name, std::size_t count, std::size_t element_size);
-    ~BufferStorage();
+    ~BufferStorage() = default;
     BufferStorage(const BufferStorage&) = delete;
     BufferStorage& operator=(const BufferStorage&) = delete;
 
@@ -24,14 +25,23 @@ public:
     std::size_t count() const { return count_; }
     std::size_t element_size() const { return element_size_; }
     std::size_t bytes() const { return count_ * element_size_; }
-    void* host() { return host_; }
-    const void* host() const { return host_; }
+    void* host() { return host_.get(); }
+    const void* host() const { return host_.get(); }
+
+    /// Another size, between frames: all zeros, elsewhere in memory. Executors that know the buffer
+    /// have to be told (Executor::rebind).
+    void resize(std::size_t count);
+    /// How often that has happened.
+    int generation() const { return generation_; }
+    /// The memory for who may need it a little longer than the buffer has it: a driver.
+    std::shared_ptr<const void> memory() const { return host_; }
 
 private:
     std::string name_;
     std::size_t count_;
     std::size_t element_size_;
-    void* host_;
+    std::shared_ptr<void> host_;
+    int generation_ = 0;
 };
 
 /// A typed array: the only way data reaches a kernel. T is float, int or float4.

@@ -75,6 +75,8 @@ public:
 
     /// Starts a frame: forgets completions and times. `epoch`: steady-clock seconds of time 0.
     virtual void begin(double epoch) = 0;
+    /// Between frames: buffers have another size and place than when the bodies were bound to them.
+    virtual void rebind() = 0;
     virtual Completion* submit(const Submission& submission) = 0;
     /// Lets everything submitted so far run.
     virtual void flush() = 0;

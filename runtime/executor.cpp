@@ -264,6 +264,13 @@ void Executor::drain() {
     each([](DeviceStream& stream) { stream.finish(); });
 }
 
+void Executor::rebind(std::span<BufferStorage* const> buffers) {
+    for (const BufferStorage* buffer : buffers) memory_.forget(*buffer);
+    for (std::size_t d = 0; d < streams_.size(); ++d) {
+        on(d, [&] { streams_[d]->rebind(); });
+    }
+}
+
 void Executor::host_wrote(BufferStorage& buffer) {
     memory_.forget(buffer);
     const ElementSpan whole{0, buffer.count()};

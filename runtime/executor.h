@@ -56,6 +56,9 @@ public:
     RunTimes run(const Step& step, const scheduler::Plan& plan, int instances,
                  int first_instance = 0);
 
+    /// To be called after buffers have been resized: from now on devices work on what these are
+    /// now. Their contents are the host's. Throws DeviceLost.
+    void rebind(std::span<BufferStorage* const> buffers);
     /// To be called after the host has written into a buffer that devices have. Throws DeviceLost,
     /// as does fetch().
     void host_wrote(BufferStorage& buffer);

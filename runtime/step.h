@@ -44,6 +44,7 @@ public:
     public:
         Adding(Step& step, int task) : step_(step), task_(task) {}
         Adding& reads(BufferStorage& buffer, int begin, int end);
+        Adding& reads(BufferStorage& buffer, const Segments& strips);
         Adding& updates(BufferStorage& buffer, int begin, int end);
         Adding& updates(BufferStorage& buffer, const Segments& strips);
 

@@ -46,7 +46,7 @@ void diagnose_frame(int frame, const SimulationState& start, Model& model, Solve
     const auto device = make_cpu_device(1, {});
     const auto bodies = solver.bodies();
     Executor executor({device.get()}, bodies);
-    const Step step = solver.make_step({});
+    const Step step = solver.make_step(Partition::whole(model.strips.count()));
     const auto finding = find(model, step, executor);
     start.put(model, solver);
     if (!finding) throw RunError(fmt::format("the simulation diverged in frame {}", frame));

@@ -17,10 +17,10 @@ using kernels::KernelInfo;
 
 // ---- what is there: all of it is read off the solver's own bodies and steps ----
 
-std::vector<Inspection::Task> find_tasks(Solver& solver) {
+std::vector<Inspection::Task> find_tasks(const Model& model, Solver& solver) {
     std::vector<Inspection::Task> tasks;
     for (const std::string& kind : solver.kinds()) tasks.push_back({kind, 0, {}});
-    const Step step = solver.make_step({});
+    const Step step = solver.make_step(Partition::whole(model.strips.count()));
     for (const Task& task : step.tasks()) {
         Inspection::Task& entry = tasks[static_cast<std::size_t>(task.body->kind)];
         ++entry.per_substep;
@@ -223,7 +223,7 @@ Inspection inspect(const Model& model, Solver& solver) {
     result.vertices = model.vertex_count();
     result.triangles = static_cast<int>(model.triangles.size());
     result.strips = model.strips.count();
-    result.tasks = find_tasks(solver);
+    result.tasks = find_tasks(model, solver);
     const KernelSet used = used_kernels(solver);
     for (const KernelInfo* kernel : used) {
         result.kernels.push_back({std::string(kernel->name), std::string(kernel->file)});

@@ -27,7 +27,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       devices_(std::move(devices)),
       active_(devices_.size()),
       model_(std::make_unique<Model>(scene, warnings)),
-      solver_(make_solver(*model_)),
+      solver_(options.make_solver(*model_)),
       recorder_(std::make_unique<FrameRecorder>(devices_.size())) {
     std::iota(active_.begin(), active_.end(), 0);
     warn_of_start(*model_, warnings);
@@ -133,6 +133,7 @@ void Simulation::calibrate(bool costs_known) {
     for (int round = 0; round < rounds; ++round) {
         for (const FramePlan& plan : planner_->calibration()) {
             const RunTimes times = executor_->run(*plan.step, plan.plan, instances);
+            make_room();
             if (!costs_known) planner_->learn(plan, times, instances);
             restore(*start);
         }
@@ -190,17 +191,35 @@ void Simulation::go_on_without(const DeviceLost& lost) {
     planner_->balance_mixture();
 }
 
-/// All substeps of the frame. What is faster than was reckoned with might have gone through an
-/// obstacle: then the frame runs once more, with that obstacle swept.
+/// All substeps of the frame. It runs again from its start as long as a table was too small for it;
+/// and once more if what is faster than was reckoned with might have gone through an obstacle, with
+/// that obstacle swept.
 RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
-    RunTimes times = executor_->run(step, plan, model_->scene.substeps);
-    fetch();
-    if (!model_->outran_obstacles()) return times;
-    restore(*start_);
-    hand_over_placed();
-    times = executor_->run(step, plan, model_->scene.substeps);
-    fetch();
-    return times;
+    bool is_swept_anew = false;
+    while (true) {
+        RunTimes times = executor_->run(step, plan, model_->scene.substeps);
+        fetch();
+        const bool was_cut_short = make_room();
+        if (!was_cut_short && (is_swept_anew || !model_->outran_obstacles())) return times;
+        is_swept_anew = is_swept_anew || !was_cut_short;
+        restore(*start_);
+        hand_over_placed();
+    }
+}
+
+/// Lets tables grow in which rows had no room. Says whether there were any: then what has been
+/// computed is of no use.
+bool Simulation::make_room() {
+    bool grew = false;
+    for (RowTable* table : solver_->tables()) {
+        executor_->fetch(table->needs());
+        if (!table->overflowed()) continue;
+        table->grow();
+        executor_->rebind(table->resized_buffers());
+        for (BufferStorage* buffer : table->written_buffers()) executor_->host_wrote(*buffer);
+        grew = true;
+    }
+    return grew;
 }
 
 void Simulation::advance_from_start(const FrameDetails& details, FrameRecord& frame) {

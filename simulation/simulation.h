@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +31,8 @@ struct SimulationOptions {
     std::optional<Division> division;  ///< fixed instead of planned
     std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
+    /// Instead of the solver that the scene names, for tests and studies.
+    std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
 };
 
 /// What a frame's record holds besides times, makespans and bytes. Each takes time between frames.
@@ -84,7 +87,7 @@ public:
     /// Simulates the next frame by a plan from elsewhere, a replay's. Nothing is planned, learnt or
     /// measured. Throws RunError if a device failed or the state went bad.
     void advance_by(const Step& step, const scheduler::Plan& plan);
-    Step make_step(const Division& division) { return solver_->make_step(division.cuts()); }
+    Step make_step(const Division& division) { return solver_->make_step(division.partition()); }
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }
@@ -112,6 +115,7 @@ private:
     bool restore_costs();
     void advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
+    bool make_room();
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);

@@ -78,7 +78,7 @@ public:
     }
 
     FrameRecord record(const Division& division) {
-        return record_of(solver_->make_step(division.cuts()), division);
+        return record_of(solver_->make_step(division.partition()), division);
     }
 
 private:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "runtime/clock.h"
+#include "scheduler/assert.h"
 
 namespace weft {
 
@@ -68,10 +69,15 @@ OpenClStream::~OpenClStream() {
     keep(std::move(kept));
 }
 
+OpenClStream::Memory OpenClStream::bring(BufferStorage& buffer) {
+    return {make_memory(target_, buffer), buffer.generation(), buffer.memory()};
+}
+
 const cl::Buffer& OpenClStream::memory_of(BufferStorage& buffer) {
-    const auto known = memory_.find(&buffer);
-    if (known != memory_.end()) return known->second;
-    return memory_.emplace(&buffer, make_memory(target_, buffer)).first->second;
+    auto known = memory_.find(&buffer);
+    if (known == memory_.end()) known = memory_.emplace(&buffer, bring(buffer)).first;
+    WEFT_ASSERT(known->second.generation == buffer.generation());  // else: rebind() first
+    return known->second.buffer;
 }
 
 cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index,
@@ -101,16 +107,34 @@ cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
 void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
                         const std::vector<std::string>& entries) {
     BoundBody bound{&body, {}};
-    for (std::size_t l = 0; l < body.launches.size(); ++l) {
-        const Launch& launch = body.launches[l];
-        if (l < entries.size()) {
-            bound.entries.push_back({cl::Kernel(program, entries[l].c_str())});
-        }
-        Entry& entry = bound.entries.back();
+    for (const std::string& entry : entries) {
+        bound.entries.push_back({cl::Kernel(program, entry.c_str())});
+    }
+    set_arguments(bound);
+    bodies_.push_back(std::move(bound));
+}
+
+/// One entry has the arguments of all launches, or each launch has its own.
+void OpenClStream::set_arguments(BoundBody& bound) {
+    for (Entry& entry : bound.entries) entry.dynamic = 0;
+    for (std::size_t l = 0; l < bound.body->launches.size(); ++l) {
+        const Launch& launch = bound.body->launches[l];
+        Entry& entry = bound.entries[std::min(l, bound.entries.size() - 1)];
         entry.dynamic = set_launch_arguments(entry.kernel, entry.dynamic, launch);
         entry.dynamic = set_segment_arguments(entry.kernel, entry.dynamic, launch.segments);
     }
-    bodies_.push_back(std::move(bound));
+}
+
+/// Rare, so all arguments are set again, whatever has changed.
+void OpenClStream::rebind() {
+    try {
+        for (auto& [buffer, memory] : memory_) {
+            if (memory.generation != buffer->generation()) memory = bring(*buffer);
+        }
+        for (BoundBody& bound : bodies_) set_arguments(bound);
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name + ", taking over buffers of another size", error);
+    }
 }
 
 void OpenClStream::begin(double epoch) {

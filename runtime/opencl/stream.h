@@ -27,6 +27,7 @@ public:
     ~OpenClStream() override;
 
     void begin(double epoch) override;
+    void rebind() override;
     Completion* submit(const Submission& submission) override;
     void flush() override;
     void finish() override;
@@ -61,9 +62,17 @@ private:
         int instance = 0;
         int task = 0;
     };
+    /// A buffer as the device has it.
+    struct Memory {
+        cl::Buffer buffer;
+        int generation = 0;                ///< of the host's
+        std::shared_ptr<const void> home;  ///< which the driver may use in place
+    };
     enum class Direction { kToDevice, kToHost };
 
+    Memory bring(BufferStorage& buffer);
     const cl::Buffer& memory_of(BufferStorage& buffer);
+    void set_arguments(BoundBody& bound);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
     void bind(const cl::Program& program, const TaskBody& body,
@@ -87,7 +96,7 @@ private:
     OpenClTarget target_;
     cl::CommandQueue queue_;
     cl::CommandQueue copies_;
-    std::map<const BufferStorage*, cl::Buffer> memory_;
+    std::map<BufferStorage*, Memory> memory_;
     std::vector<BoundBody> bodies_;
     std::deque<OpenClCompletion> completions_;
     std::deque<Running> running_;

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_scheduler_observer.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -13,6 +14,7 @@
 #include "runtime/clock.h"
 #include "runtime/cores.h"
 #include "runtime/error.h"
+#include "scheduler/assert.h"
 
 namespace weft {
 
@@ -32,9 +34,9 @@ struct BoundLaunch {
           segments(launch.segments),
           values(launch.arguments),
           pointers(values.size(), nullptr) {
+        find_buffers();
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (values[i].buffer != nullptr) {
-                pointers[i] = values[i].buffer->host();
                 arguments.push_back(&pointers[i]);
             } else if (launch.kernel->parameters[i] == kernels::Parameter::kFloat) {
                 arguments.push_back(&values[i].real);
@@ -45,6 +47,20 @@ struct BoundLaunch {
         }
     }
     BoundLaunch(BoundLaunch&&) = default;  // vectors keep their storage, so the pointers stay valid
+
+    void find_buffers() {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (values[i].buffer != nullptr) pointers[i] = values[i].buffer->host();
+        }
+    }
+
+    bool is_bound_to_present_buffers() const {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (values[i].buffer != nullptr && pointers[i] != values[i].buffer->host())
+                return false;
+        }
+        return true;
+    }
 
     void fill_in(int instance, int iteration) {
         for (const std::size_t i : filled_in) {
@@ -165,10 +181,18 @@ public:
         epoch_ = epoch;
     }
 
+    void rebind() override {
+        for (BoundBody& bound : bodies_) {
+            for (BoundLaunch& launch : bound.launches) launch.find_buffers();
+        }
+    }
+
     Completion* submit(const Submission& s) override {
         const std::lock_guard lock(mutex_);  // the worker reads jobs_ while it grows
         Job& job = jobs_.emplace_back();
         job.body = &find(s.task->body);
+        WEFT_ASSERT(
+            std::ranges::all_of(job.body->launches, &BoundLaunch::is_bound_to_present_buffers));
         job.task = s.task;
         job.number = s.number;
         job.instance = s.instance;

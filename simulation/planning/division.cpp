@@ -37,14 +37,15 @@ std::vector<int> Division::devices() const {
     return list;
 }
 
-std::vector<int> Division::cuts() const {
-    std::vector<int> cuts;
-    int end = 0;
+Partition Division::partition() const {
+    Partition partition;
+    int begin = 0;
     for (const int device : devices()) {
-        if (end > 0) cuts.push_back(end);
-        end += strips[static_cast<std::size_t>(device)];
+        const int end = begin + strips[static_cast<std::size_t>(device)];
+        partition.parts.push_back({begin, end});
+        begin = end;
     }
-    return cuts;
+    return partition;
 }
 
 unsigned Division::mask() const {

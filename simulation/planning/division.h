@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "simulation/solver/partition.h"
+
 namespace weft {
 
 /// Who gets how many strips: device d takes the strips behind those of the devices before it. A
@@ -16,8 +18,8 @@ struct Division {
 
     /// The devices that take part, in order: region r of the step is for device devices()[r].
     std::vector<int> devices() const;
-    /// The strips at which regions meet, for Solver::make_step().
-    std::vector<int> cuts() const;
+    /// For Solver::make_step(): a part for each device that takes part.
+    Partition partition() const;
     /// One bit per device that takes part.
     unsigned mask() const;
     /// The most strips that a device has more or less in the other one.

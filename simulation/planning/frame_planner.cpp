@@ -51,7 +51,7 @@ FramePlanner::Candidate& FramePlanner::candidate(const Division& division) {
     auto& known = candidates_[division];
     if (known) return *known;
     known = std::make_unique<Candidate>();
-    known->step = solver_.make_step(division.cuts());
+    known->step = solver_.make_step(division.partition());
     known->devices = division.devices();
     const auto processors = static_cast<scheduler::ProcessorId>(device_count());
     const std::vector<double> no_cost(devices_.size(), 0.0);

@@ -87,8 +87,8 @@ public:
     }
     std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
 
-    Step make_step(std::span<const int> cuts) override {
-        const auto regions = regions_between(cuts, model_.strips.count());
+    Step make_step(const Partition& partition) override {
+        const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) substep_.add_begin(step, predict_, region);
         for (int i = 0; i < iterations_; ++i) {

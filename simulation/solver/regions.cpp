@@ -1,14 +1,18 @@
 #include "simulation/solver/regions.h"
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
-std::vector<Region> regions_between(std::span<const int> cuts, int strip_count) {
-    std::vector<Region> regions{{0, 0, strip_count, false, false}};
-    for (const int cut : cuts) {
-        Region& before = regions.back();
-        before.end = cut;
-        before.cut_behind = true;
-        regions.push_back({before.id + 1, cut, strip_count, true, false});
+std::vector<Region> regions_of(const Partition& partition) {
+    WEFT_ASSERT(!partition.parts.empty());
+    std::vector<Region> regions;
+    const int last = static_cast<int>(partition.parts.size()) - 1;
+    for (int r = 0; r <= last; ++r) {
+        const Part& part = partition.parts[static_cast<std::size_t>(r)];
+        WEFT_ASSERT(part.begin == (r == 0 ? 0 : regions.back().end));
+        WEFT_ASSERT(part.begin < part.end);
+        regions.push_back({r, part.begin, part.end, r > 0, r < last});
     }
     return regions;
 }

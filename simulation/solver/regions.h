@@ -1,8 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
 #include <vector>
+
+#include "simulation/solver/partition.h"
 
 namespace weft {
 
@@ -50,7 +51,6 @@ void for_each_share(const Region& region, Visit visit) {
     call(far_begin, far_end);
 }
 
-/// cuts: ascending strips in [1, strip_count)
-std::vector<Region> regions_between(std::span<const int> cuts, int strip_count);
+std::vector<Region> regions_of(const Partition& partition);
 
 }  // namespace weft

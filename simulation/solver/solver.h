@@ -1,12 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "simulation/model/model.h"
+#include "simulation/solver/partition.h"
 
 namespace weft {
 
@@ -25,9 +26,12 @@ public:
     /// solver would guess from earlier ones, so that all solvers can be compared from one start.
     virtual std::vector<BufferStorage*> state() { return {}; }
 
-    /// The task graph of one substep, with the strips divided into regions at the cuts.
-    /// cuts: ascending strips in [1, strip count); region r lies between cuts r - 1 and r.
-    virtual Step make_step(std::span<const int> cuts) = 0;
+    /// Tables whose rows the tasks fill anew in every substep. Where one overflows, it grows, and
+    /// the frame is done again from its start.
+    virtual std::vector<RowTable*> tables() { return {}; }
+
+    /// The task graph of one substep; region r of its tasks is part r (regions_of() in regions.h).
+    virtual Step make_step(const Partition& partition) = 0;
 };
 
 /// The solver that the model's scene names.

@@ -52,8 +52,8 @@ std::vector<std::string> SweepSolver::kinds() const {
     return names;
 }
 
-Step SweepSolver::make_step(std::span<const int> cuts) {
-    const auto regions = regions_between(cuts, model_.strips.count());
+Step SweepSolver::make_step(const Partition& partition) {
+    const auto regions = regions_of(partition);
     const int iterations = model_.scene.solver.iterations;
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);

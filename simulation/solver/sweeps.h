@@ -23,7 +23,7 @@ public:
     std::vector<const TaskBody*> bodies() const override;
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
-    Step make_step(std::span<const int> cuts) override;
+    Step make_step(const Partition& partition) override;
 
 protected:
     explicit SweepSolver(Model& model);

@@ -36,8 +36,8 @@ public:
         return {"predict", "seams", "strips", "velocities"};
     }
 
-    Step make_step(std::span<const int> cuts) override {
-        const auto regions = regions_between(cuts, model_.strips.count());
+    Step make_step(const Partition& partition) override {
+        const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) add_predict(step, region);
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {

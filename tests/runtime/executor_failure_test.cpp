@@ -48,6 +48,7 @@ public:
     ~FailingStream() override { stop(); }
 
     void begin(double) override { completions_.clear(); }
+    void rebind() override {}
     Completion* submit(const Submission&) override {
         if (when_ == When::kSubmit && completions_.size() == 5) throw RunError("lost in submit");
         stop();  // it walks through the deque

@@ -17,14 +17,15 @@ TEST(Division, SingleGivesAllToOne) {
     const Division division = Division::single(3, 20, 1);
     EXPECT_EQ(division.strips, (std::vector<int>{0, 20, 0}));
     EXPECT_EQ(division.devices(), std::vector<int>{1});
-    EXPECT_TRUE(division.cuts().empty());
+    EXPECT_EQ(division.partition(), Partition::whole(20));
     EXPECT_EQ(division.mask(), 2U);
 }
 
 TEST(Division, CutsAreWhereRegionsMeet) {
     const Division division{{3, 0, 5, 2}};
     EXPECT_EQ(division.devices(), (std::vector<int>{0, 2, 3}));
-    EXPECT_EQ(division.cuts(), (std::vector<int>{3, 8}));
+    EXPECT_EQ(division.partition(), Partition::at(std::vector<int>{3, 8}, 10));
+    EXPECT_EQ(division.partition().parts, (std::vector<Part>{{0, 3}, {3, 8}, {8, 10}}));
     EXPECT_EQ(division.mask(), 0b1101U);
 }
 

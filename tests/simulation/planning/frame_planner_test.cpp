@@ -70,7 +70,7 @@ public:
     /// What the devices would take together if they could share anything.
     double ideal() const {
         double items = 0.0;
-        const Step step = solver_->make_step({});
+        const Step step = solver_->make_step(Partition::whole(strip_count()));
         for (const Task& task : step.tasks()) items += static_cast<double>(task.items);
         double speed = 0.0;
         for (const auto& device : machine.speeds) speed += 1.0 / device.per_item;

@@ -11,6 +11,7 @@ public:
         : inner_(std::move(inner)), batches_(batches) {}
 
     void begin(double epoch) override { inner_->begin(epoch); }
+    void rebind() override { inner_->rebind(); }
     Completion* submit(const Submission& submission) override { return inner_->submit(submission); }
     void flush() override { inner_->flush(); }
     void finish() override {

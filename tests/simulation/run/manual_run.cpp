@@ -76,7 +76,7 @@ void ManualRun::run_frame(const Division& division, int substeps) {
 }
 
 void ManualRun::run_step(const Division& division, int substeps) {
-    const Step step = solver->make_step(division.cuts());
+    const Step step = solver->make_step(division.partition());
     executor_->run(step, plan_in_order(step, division), substeps);
     for (BufferStorage* buffer : state()) executor_->fetch(*buffer);
 }

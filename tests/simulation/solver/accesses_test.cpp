@@ -84,7 +84,8 @@ TEST_P(Accesses, AreDeclaredForAllThatLaunchesTouch) {
     Warnings warnings;
     Model model(scene, warnings);
     const auto solver = make_solver(model);
-    const Step step = solver->make_step(std::vector<int>{model.strips.count() / 2});
+    const int strips = model.strips.count();
+    const Step step = solver->make_step(Partition::at(std::vector{strips / 2}, strips));
     const Buffers changed = changing(*solver);
     Buffers scratch = changed;
     for (const BufferStorage* buffer : declared(step)) scratch.erase(buffer);

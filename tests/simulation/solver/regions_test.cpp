@@ -24,7 +24,8 @@ std::vector<std::vector<int>> all_cuts(int strip_count) {
 
 void for_all_divisions(const std::function<void(int, const std::vector<Region>&)>& check) {
     for (int strips = 1; strips <= 8; ++strips) {
-        for (const auto& cuts : all_cuts(strips)) check(strips, regions_between(cuts, strips));
+        for (const auto& cuts : all_cuts(strips))
+            check(strips, regions_of(Partition::at(cuts, strips)));
     }
 }
 
@@ -68,7 +69,7 @@ TEST(Regions, SeamsComeBeforeTheStripsThatTheyTouch) {
 }
 
 TEST(Regions, TheStripBehindACutComesLastAndTheOpenSeamInTheMiddle) {
-    const auto regions = regions_between(std::vector<int>{10}, 20);
+    const auto regions = regions_of(Partition::at(std::vector<int>{10}, 20));
     std::vector<std::pair<char, int>> first, second;  // kind, first strip or seam
     const auto list = [](auto& into, char kind) {
         return [&into, kind](int begin, int) { into.emplace_back(kind, begin); };

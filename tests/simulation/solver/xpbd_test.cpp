@@ -140,13 +140,14 @@ long items_of(const Step& step) {
 
 TEST(Xpbd, EveryDivisionHasTheSameWork) {
     ManualRun run(parse_scene(kEverything, "test.toml"));
-    const long items = items_of(run.solver->make_step({}));
+    const long items = items_of(run.solver->make_step(Partition::whole(run.strip_count())));
     for (int first = 1; first < run.strip_count(); ++first) {
         const int one[] = {first};
-        EXPECT_EQ(items_of(run.solver->make_step(one)), items);
+        EXPECT_EQ(items_of(run.solver->make_step(Partition::at(one, run.strip_count()))), items);
         for (int second = first + 1; second < run.strip_count(); ++second) {
             const int two[] = {first, second};
-            EXPECT_EQ(items_of(run.solver->make_step(two)), items);
+            EXPECT_EQ(items_of(run.solver->make_step(Partition::at(two, run.strip_count()))),
+                      items);
         }
     }
 }
@@ -155,7 +156,7 @@ TEST(Xpbd, RegionsOnlyWaitForTheirNeighboursAtTheCut) {
     ManualRun run(parse_scene(kSpringsOnly, "test.toml"));
     ASSERT_GE(run.strip_count(), 6);
     const int cuts[] = {2, 4};
-    const Step step = run.solver->make_step(cuts);
+    const Step step = run.solver->make_step(Partition::at(cuts, run.strip_count()));
     for (const Dependency& d : step.dependencies()) {
         const Task& from = step.tasks()[static_cast<std::size_t>(d.from)];
         const Task& to = step.tasks()[static_cast<std::size_t>(d.to)];

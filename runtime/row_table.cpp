@@ -1,0 +1,93 @@
+#include "runtime/row_table.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "runtime/error.h"
+#include "scheduler/assert.h"
+
+namespace weft {
+
+namespace {
+
+/// Entries are addressed by ints.
+constexpr long kMostEntries = std::numeric_limits<int>::max() - RowTable::kStride;
+
+/// Rounded up to whole slices.
+int slices_of(int items) { return (items + RowTable::kStride - 1) / RowTable::kStride; }
+
+}  // namespace
+
+RowTable::RowTable(std::string name, const Segments& items, int room)
+    : name_(std::move(name)),
+      items_(items),
+      item_count_(items.item(items.strip_count)),
+      room_(static_cast<std::size_t>(items.strip_count), std::max(room, 0)),
+      rows_(name_ + ".rows", 2 * static_cast<std::size_t>(item_count_)),
+      counts_(name_ + ".counts", static_cast<std::size_t>(item_count_)),
+      needs_(name_ + ".needs", static_cast<std::size_t>(item_count_)),
+      entry_begin_(name_ + ".strips", static_cast<std::size_t>(items.strip_count) + 1),
+      entries_{&entry_begin_, 0, 1, items.strip_count} {
+    WEFT_ASSERT(items.colour_count == 1);
+    WEFT_ASSERT(items.item(0) == 0);
+    place_rows();
+}
+
+/// One slice more than the rows take: the start of a row without room is an address, too.
+std::size_t RowTable::entry_count() const {
+    return static_cast<std::size_t>(entries_.item(entries_.strip_count) + kStride);
+}
+
+void RowTable::place_rows() {
+    long start = 0;
+    for (int strip = 0; strip < items_.strip_count; ++strip) {
+        const int room = room_[static_cast<std::size_t>(strip)];
+        const int first = items_.item(strip);
+        const int end = items_.item(strip + 1);
+        entry_begin_[static_cast<std::size_t>(strip)] = static_cast<int>(start);
+        for (int item = first; item < end; ++item) {
+            const int slice = (item - first) / kStride;
+            const auto i = static_cast<std::size_t>(item);
+            rows_[i] = static_cast<int>(start) + slice * kStride * room + (item - first) % kStride;
+            rows_[i + static_cast<std::size_t>(item_count_)] = room;
+        }
+        start += static_cast<long>(slices_of(end - first)) * kStride * room;
+        if (start > kMostEntries) {
+            throw RunError("the table '" + name_ + "' would need more than " +
+                           std::to_string(kMostEntries) + " entries");
+        }
+    }
+    entry_begin_[static_cast<std::size_t>(items_.strip_count)] = static_cast<int>(start);
+}
+
+int RowTable::most_needed(int strip) const {
+    const auto first = needs_.data() + items_.item(strip);
+    const auto end = needs_.data() + items_.item(strip + 1);
+    return first == end ? 0 : *std::max_element(first, end);
+}
+
+bool RowTable::overflowed() const {
+    for (int strip = 0; strip < items_.strip_count; ++strip) {
+        if (most_needed(strip) > room_[static_cast<std::size_t>(strip)]) return true;
+    }
+    return false;
+}
+
+void RowTable::grow() {
+    for (int strip = 0; strip < items_.strip_count; ++strip) {
+        int& room = room_[static_cast<std::size_t>(strip)];
+        const int most = most_needed(strip);
+        if (most > room) room = most + most / 2;
+    }
+    place_rows();
+    for (const auto& column : columns_) column->resize(entry_count());
+    ++generation_;
+}
+
+std::vector<BufferStorage*> RowTable::resized_buffers() {
+    std::vector<BufferStorage*> buffers;
+    for (const auto& column : columns_) buffers.push_back(column.get());
+    return buffers;
+}
+
+}  // namespace weft

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "runtime/launch.h"
+
+namespace weft {
+
+/// Rows of entries, one per item, that kernels fill anew in every substep: how long they get is
+/// known only then. kernels/neighbours.h has kernels for such a table.
+///
+/// Rows have room for so many entries, the same for all rows of a strip. A kernel that finds more
+/// keeps what there is room for, and notes how many there were; the host looks at that at the end
+/// of a frame (overflowed()), makes room (grow()) and runs the frame again from its start. So
+/// results never depend on the room that there was.
+///
+/// Rows lie in slices of 8 items, entry k of an item at start + kStride * k, as in
+/// kernels/descent/rows.h. The entries of a strip lie together, so that tasks can say by strips
+/// what they read and write, whatever the room is.
+class RowTable {
+public:
+    static constexpr int kStride = 8;
+
+    /// items: one colour, all strips; they do not change. room: per row, at the beginning
+    RowTable(std::string name, const Segments& items, int room);
+
+    int item_count() const { return item_count_; }
+    /// [2 * items] column-major: where an item's entries start, how many there is room for.
+    Buffer<int>& rows() { return rows_; }
+    /// [items] for the kernel that fills the rows: the entries that each has now.
+    Buffer<int>& counts() { return counts_; }
+    /// [items] for the kernel that fills the rows: the most that each wanted in this frame.
+    Buffer<int>& needs() { return needs_; }
+    /// A column of entries. Grows with the table, and is all zeros then.
+    template <class T>
+    Buffer<T>& add_column(const std::string& name) {
+        auto column = std::make_unique<Buffer<T>>(name_ + "." + name, entry_count());
+        Buffer<T>& added = *column;
+        columns_.push_back(std::move(column));
+        return added;
+    }
+    /// Strips of the columns, for accesses.
+    const Segments& entries() const { return entries_; }
+
+    /// Whether a row wanted more than there was room for; needs() must be the host's.
+    bool overflowed() const;
+    /// Makes room for all that was wanted and half as much again, in strips where it was not
+    /// enough.
+    void grow();
+    /// How often it has grown.
+    int generation() const { return generation_; }
+    /// What grow() changes, for Executor::rebind(): the columns have moved,
+    std::vector<BufferStorage*> resized_buffers();
+    /// and these have new values, for Executor::host_wrote().
+    std::vector<BufferStorage*> written_buffers() { return {&rows_, &entry_begin_}; }
+
+private:
+    std::size_t entry_count() const;
+    int most_needed(int strip) const;
+    void place_rows();
+
+    std::string name_;
+    Segments items_;
+    int item_count_;
+    std::vector<int> room_;  ///< [strips]
+    Buffer<int> rows_, counts_, needs_;
+    Buffer<int> entry_begin_;  ///< [strips + 1]
+    Segments entries_;
+    std::vector<std::unique_ptr<BufferStorage>> columns_;
+    int generation_ = 0;
+};
+
+}  // namespace weft

@@ -1,0 +1,97 @@
+#include "runtime/row_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "runtime/error.h"
+
+namespace weft::test {
+namespace {
+
+/// Strips of 3, 0, 20 and 8 items.
+class RowTables : public testing::Test {
+protected:
+    RowTables() {
+        const int begins[] = {0, 3, 3, 23, 31};
+        std::copy(std::begin(begins), std::end(begins), begin_.data());
+    }
+    /// Where every entry of every row is; each has to be a place of its own within its strip.
+    std::set<int> places(RowTable& table, const std::vector<int>& room) {
+        std::set<int> all;
+        for (int strip = 0; strip < items_.strip_count; ++strip) {
+            for (int item = items_.item(strip); item < items_.item(strip + 1); ++item) {
+                const auto i = static_cast<std::size_t>(item);
+                const int own = table.rows()[i + 31];
+                EXPECT_EQ(own, room[static_cast<std::size_t>(strip)]);
+                for (int k = 0; k < own; ++k) {
+                    const int place = table.rows()[i] + RowTable::kStride * k;
+                    EXPECT_TRUE(all.insert(place).second) << "item " << item << ", entry " << k;
+                    EXPECT_GE(place, table.entries().item(strip));
+                    EXPECT_LT(place, table.entries().item(strip + 1));
+                }
+            }
+        }
+        return all;
+    }
+
+    Buffer<int> begin_{"begin", 5};
+    Segments items_{&begin_, 0, 1, 4};
+};
+
+TEST_F(RowTables, EveryEntryHasAPlaceOfItsOwn) {
+    RowTable table("table", items_, 5);
+    const auto& column = table.add_column<int>("others");
+    const auto all = places(table, {5, 5, 5, 5});
+    EXPECT_EQ(all.size(), 31U * 5U);
+    EXPECT_LT(*all.rbegin(), static_cast<int>(column.count()));
+}
+
+/// The 8 items of a slice stand beside each other, so that a pack of lanes reads one stretch.
+TEST_F(RowTables, PacksAreContiguous) {
+    RowTable table("table", items_, 3);
+    for (const int first : {0, 3, 11, 19, 23}) {
+        const int end = first == 0 ? 3 : (first == 19 ? 23 : first + 8);
+        for (int item = first; item < end; ++item) {
+            EXPECT_EQ(table.rows()[static_cast<std::size_t>(item)],
+                      table.rows()[static_cast<std::size_t>(first)] + item - first);
+        }
+    }
+}
+
+TEST_F(RowTables, StripsThatWereTooSmallGrowAndOthersDoNot) {
+    RowTable table("table", items_, 2);
+    auto& column = table.add_column<float>("distances");
+    column[0] = 1.0f;
+    std::fill(table.needs().data(), table.needs().data() + 31, 2);
+    EXPECT_FALSE(table.overflowed());
+    table.needs()[10] = 5;
+    table.needs()[12] = 9;
+    EXPECT_TRUE(table.overflowed());
+    table.grow();
+    EXPECT_FALSE(table.overflowed());
+    EXPECT_EQ(table.generation(), 1);
+    EXPECT_EQ(column.generation(), 1);
+    EXPECT_EQ(column[0], 0.0f);
+    const auto all = places(table, {2, 2, 13, 2});
+    EXPECT_LT(*all.rbegin(), static_cast<int>(column.count()));
+}
+
+/// A row without room has a start that may be read.
+TEST_F(RowTables, WithoutRoomThereIsAnEntryYet) {
+    RowTable table("table", items_, 0);
+    const auto& column = table.add_column<int>("others");
+    for (std::size_t i = 0; i < 31; ++i) {
+        EXPECT_LT(table.rows()[i], static_cast<int>(column.count()));
+    }
+}
+
+TEST_F(RowTables, BeyondWhatCanBeAddressedIsAnError) {
+    RowTable table("table", items_, 1);
+    table.needs()[30] = 2'000'000'000 / 3;
+    EXPECT_THROW(table.grow(), RunError);
+}
+
+}  // namespace
+}  // namespace weft::test
