@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "runtime/opencl/extra_drivers.h"
 #include "runtime/opencl/stream.h"
 
 namespace weft {
@@ -11,6 +12,7 @@ namespace {
 std::vector<cl::Device> find_devices() {
     std::vector<cl::Device> devices;
     std::vector<cl::Platform> platforms;
+    const ExtraDrivers drivers(usual_driver_places());
     try {
         cl::Platform::get(&platforms);
     } catch (const cl::Error&) {
