@@ -27,6 +27,9 @@ struct DeviceInfo {
     bool strict = true;  ///< rounds + - * / sqrt correctly, so its results have the same bits
     int lanes = 1;       ///< items per call of a kernel
     std::vector<int> cores = {};  ///< that its threads stay on; empty: they may go anywhere
+    /// Devices of one team work at the same time; those of different teams take turns, since they
+    /// may have the same cores.
+    int team = 0;
 };
 
 /// Something submitted to a device that will be done at some time. Owned by its stream, until the

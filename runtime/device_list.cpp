@@ -40,7 +40,8 @@ struct Part {
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
     throw UserError("--device: '" + text + "': " + why +
                     "; a device is cpu, gpu, opencl, opencl:I, opencl:NAME or hybrid, with /N at "
-                    "its end limited to N units (but hybrid); several are joined by '+'");
+                    "its end limited to N units (but hybrid); several are joined by '+', and '|' "
+                    "stands between those that take turns");
 }
 
 int to_number(const std::string& digits, const std::string& text, int least) {
@@ -97,23 +98,26 @@ Part parse_part(const std::string& text) {
     return part;
 }
 
-/// The texts between the '+'.
-std::vector<std::string> split(const std::string& list) {
+/// The texts between the marks.
+std::vector<std::string> split(const std::string& list, char mark) {
     std::vector<std::string> texts;
     std::string rest = list;
     while (true) {
-        const auto more = cut_off(rest, '+');
+        const auto more = cut_off(rest, mark);
         texts.push_back(rest);
         if (!more) return texts;
         rest = *more;
     }
 }
 
-std::vector<Part> parse(const std::string& list) {
-    std::vector<Part> parts;
-    for (const std::string& text : split(list)) {
+using Team = std::vector<Part>;
+
+Team parse_team(const std::string& list) {
+    Team parts;
+    for (const std::string& text : split(list, '+')) {
         if (text == "hybrid") {
-            for (Part& part : parse(hybrid_devices())) parts.push_back(std::move(part));
+            const auto mixture = split(hybrid_devices(), '|').front();
+            for (Part& part : parse_team(mixture)) parts.push_back(std::move(part));
         } else {
             parts.push_back(parse_part(text));
         }
@@ -121,8 +125,16 @@ std::vector<Part> parse(const std::string& list) {
     return parts;
 }
 
+std::vector<Team> parse(const std::string& list) {
+    std::vector<Team> teams;
+    for (const std::string& text : split(list == "hybrid" ? hybrid_devices() : list, '|')) {
+        teams.push_back(parse_team(text));
+    }
+    return teams;
+}
+
 /// How many of the cores OpenCL may take at most, as the list says it: no driver is asked yet.
-int most_opencl_units(const std::vector<Part>& parts, int cores) {
+int most_opencl_units(const Team& parts, int cores) {
     int opencl = 0;
     int cpu = 0;
     bool all_numbered = true;
@@ -133,8 +145,17 @@ int most_opencl_units(const std::vector<Part>& parts, int cores) {
     return std::clamp(all_numbered ? opencl : cores - cpu, 1, cores);
 }
 
-bool touches_opencl(const std::vector<Part>& parts) {
+bool touches_opencl(const Team& parts) {
     return !std::ranges::all_of(parts, [](const Part& part) { return part.is_cpu; });
+}
+
+/// Drivers make their threads once, for the team that needs most.
+int most_opencl_units(const std::vector<Team>& teams, int cores) {
+    int most = 1;
+    for (const Team& team : teams) {
+        if (touches_opencl(team)) most = std::max(most, most_opencl_units(team, cores));
+    }
+    return most;
 }
 
 bool contains_word(std::string text, std::string word) {
@@ -218,38 +239,26 @@ void share_cores(std::vector<Part>& parts, int cores) {
     }
 }
 
+/// Opens the devices of one team.
 class Opener {
 public:
-    Opener(std::vector<Part> parts, const DeviceOptions& options)
-        : parts_(std::move(parts)), options_(options), free_cores_(usable_cores()) {}
+    Opener(Team parts, int number, std::vector<int> cores, const DeviceOptions& options)
+        : parts_(std::move(parts)),
+          number_(number),
+          options_(options),
+          free_cores_(std::move(cores)) {}
 
-    std::vector<std::unique_ptr<Device>> open() {
-        if (touches_opencl(parts_))
-            find_and_open_opencl();
-        else
-            share_cores(parts_, static_cast<int>(free_cores_.size()));
-        std::vector<std::unique_ptr<Device>> devices;
+    void open_into(std::vector<std::unique_ptr<Device>>& devices) {
+        const int cores = static_cast<int>(free_cores_.size());
+        if (touches_opencl(parts_)) find_devices(parts_);
+        share_cores(parts_, cores);
+        open_opencl();
         for (const Part& part : parts_) {
             devices.push_back(part.is_cpu ? open_cpu(part.units) : next_opencl(part.index));
         }
-        return devices;
     }
 
 private:
-    /// OpenCL has the first cores, and TBB what is left. Drivers on the CPU make their threads when
-    /// they are found (PoCL 3.1) or when a context is made: these inherit the cores of the thread
-    /// that asks. (POCL_AFFINITY would bind thread i to the machine's core i, whatever this process
-    /// may use.)
-    void find_and_open_opencl() {
-        const int cores = static_cast<int>(free_cores_.size());
-        const int units = most_opencl_units(parts_, cores);
-        limit_cpu_driver(units);
-        const PinnedThread here({free_cores_.begin(), free_cores_.begin() + units});
-        find_devices(parts_);
-        share_cores(parts_, cores);
-        open_opencl();
-    }
-
     /// All parts of one OpenCL device are divided off it at once, from its first unit on.
     void open_opencl() {
         std::map<int, std::vector<int>> units;
@@ -258,7 +267,7 @@ private:
         }
         for (auto& [index, list] : units) {
             if (list == std::vector<int>{0}) list.clear();  // whole
-            opened_[index] = open_opencl_device(index, list, options_);
+            opened_[index] = open_opencl_device(index, list, options_, number_);
             if (!opencl_devices()[static_cast<std::size_t>(index)].is_cpu) continue;
             for (const auto& device : opened_[index]) {
                 const auto taken = std::min<std::size_t>(
@@ -276,7 +285,7 @@ private:
             cores.assign(free_cores_.begin(), free_cores_.begin() + threads);
             free_cores_.erase(free_cores_.begin(), free_cores_.begin() + threads);
         }
-        return make_cpu_device(threads, cores, options_.cpu_lanes == 1 ? 1 : 8);
+        return make_cpu_device(threads, cores, options_.cpu_lanes == 1 ? 1 : 8, number_);
     }
 
     std::unique_ptr<Device> next_opencl(int index) {
@@ -286,7 +295,8 @@ private:
         return device;
     }
 
-    std::vector<Part> parts_;
+    Team parts_;
+    int number_;
     DeviceOptions options_;
     std::vector<int> free_cores_;
     std::map<int, std::vector<std::unique_ptr<Device>>> opened_;
@@ -295,14 +305,35 @@ private:
 
 }  // namespace
 
+/// OpenCL has the first cores, and TBB what is left. Drivers on the CPU make their threads when
+/// they are found (PoCL 3.1) or when a context is made: these inherit the cores of the thread that
+/// asks. (POCL_AFFINITY would bind thread i to the machine's core i, whatever this process may
+/// use.)
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
                                                   const DeviceOptions& options) {
-    return Opener(parse(list), options).open();
+    const std::vector<Team> teams = parse(list);
+    std::vector<std::unique_ptr<Device>> devices;
+    std::vector<int> opencl_cores;
+    if (std::ranges::any_of(teams, touches_opencl)) {
+        opencl_cores = usable_cores();
+        const auto cores = static_cast<int>(opencl_cores.size());
+        const int units = most_opencl_units(teams, cores);
+        limit_cpu_driver(units);
+        opencl_cores.resize(static_cast<std::size_t>(units));
+    }
+    const std::vector<int> all_cores = usable_cores();
+    const PinnedThread here(opencl_cores);
+    for (const Team& team : teams) {
+        Opener(team, static_cast<int>(&team - teams.data()), all_cores, options).open_into(devices);
+    }
+    return devices;
 }
 
 void check_device_list(const std::string& list) {
-    for (const std::string& text : split(list)) {
-        if (text != "hybrid") parse_part(text);
+    for (const std::string& team : split(list, '|')) {
+        for (const std::string& text : split(team, '+')) {
+            if (text != "hybrid") parse_part(text);
+        }
     }
 }
 
@@ -325,8 +356,9 @@ std::string hybrid_devices() {
         return "cpu/" + std::to_string(std::max(1, cores - 1)) + "+" + opencl;
     }
     if (cores < 2) return "cpu";
+    // The cores are the same, so TBB on all of them may be faster: it takes turns with the mixture.
     return "cpu/" + std::to_string(cores - cores / 2) + "+" + opencl + "/" +
-           std::to_string(cores / 2);
+           std::to_string(cores / 2) + "|cpu";
 }
 
 }  // namespace weft

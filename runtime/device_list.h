@@ -27,9 +27,12 @@ struct DeviceOptions {
 ///   opencl:I, opencl:I/N  device I of `weft devices`, whole or limited to N compute units
 ///   opencl:NAME           the first whose name, or whose platform's, holds it; any case
 ///   gpu                   the first GPU
-///   hybrid                the CPU and the best OpenCL device; the CPU alone where there is none
-/// OpenCL devices that are the CPU itself and the TBB devices get cores of their own. Throws
-/// UserError for a list that cannot be had. OpenCL is not touched unless the list asks for it.
+///   hybrid                the CPU and the best OpenCL device; the CPU alone where there is none;
+///                         where the device is the CPU itself, or else the CPU alone
+/// '+' stands between devices that work together, a team; '|' between teams, of which one works at
+/// a time: "cpu/1+opencl:0/1|cpu" is a core by TBB and one by OpenCL, or all by TBB. OpenCL devices
+/// that are the CPU itself and the TBB devices get cores of their own. Throws UserError for a list
+/// that cannot be had. OpenCL is not touched unless the list asks for it.
 std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
                                                   const DeviceOptions& options = {});
 

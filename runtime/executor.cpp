@@ -1,29 +1,23 @@
 #include "runtime/executor.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "runtime/clock.h"
 #include "runtime/cores.h"
+#include "runtime/submission_order.h"
 #include "scheduler/assert.h"
 
 namespace weft {
 
 namespace {
 
-/// Whether every task has a device, and starts after those that it waits for.
+/// Whether every task has a device.
 [[maybe_unused]] bool fits(const Step& step, const scheduler::Plan& plan, std::size_t devices) {
-    const auto& placements = plan.placements;
-    if (placements.size() != step.tasks().size()) return false;
     const auto is_there = [&](const scheduler::Placement& p) {
         return p.processor < devices && p.start <= p.end;
     };
-    const auto is_in_order = [&](const Dependency& d) {
-        return placements[static_cast<std::size_t>(d.from)].start <=
-               placements[static_cast<std::size_t>(d.to)].start;
-    };
-    return std::ranges::all_of(placements, is_there) &&
-           std::ranges::all_of(step.dependencies(), is_in_order);
+    return plan.placements.size() == step.tasks().size() &&
+           std::ranges::all_of(plan.placements, is_there);
 }
 
 }  // namespace
@@ -35,13 +29,8 @@ public:
         : executor_(executor),
           step_(step),
           plan_(plan),
-          order_(step.tasks().size()),
+          order_(submission_order(step, plan)),
           hop_count_(executor.devices_.size(), 0) {
-        // By planned start. Tasks are numbered in an order that respects the dependencies, so ties
-        // do.
-        std::iota(order_.begin(), order_.end(), 0);
-        std::stable_sort(order_.begin(), order_.end(),
-                         [&](int a, int b) { return placement(a).start < placement(b).start; });
         WEFT_ASSERT(fits(step, plan, executor.devices_.size()));
         previous_.resize(order_.size(), nullptr);
         current_.resize(order_.size(), nullptr);
@@ -191,10 +180,6 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
     : devices_(std::move(devices)), epoch_(epoch) {
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
-        if (submission_cores_.empty()) {
-            submission_cores_ = device->info().cores;
-            submitter_ = streams_.size() - 1;
-        }
         one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
     }
 }
@@ -203,12 +188,22 @@ Executor::~Executor() = default;
 
 double Executor::clock() const { return now() - epoch_; }
 
+/// The first device of the plan that stays on its cores, or the last of all.
+std::size_t Executor::find_submitter(const scheduler::Plan& plan) const {
+    for (std::size_t d = 0; d < devices_.size(); ++d) {
+        const bool works = !plan.tasks_on(static_cast<scheduler::ProcessorId>(d)).empty();
+        if (works && !devices_[d]->info().cores.empty()) return d;
+    }
+    return devices_.size() - 1;
+}
+
 RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instances,
                        int first_instance) {
     for (const auto& stream : streams_) stream->begin(epoch_);
     memory_.settle();
     // Submitting disturbs the devices that stay on their cores; it shall not wander among them.
-    const PinnedThread pinned(submission_cores_);
+    const std::size_t submitter = find_submitter(plan);
+    const PinnedThread pinned(devices_[submitter]->info().cores);
 
     RunTimes times;
     times.start = clock();
@@ -223,9 +218,9 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
         }
         // Last the one whose core submits: it takes that core.
         for (std::size_t d = 0; d < streams_.size(); ++d) {
-            if (d != submitter_) on(d, [&] { streams_[d]->flush(); });
+            if (d != submitter) on(d, [&] { streams_[d]->flush(); });
         }
-        on(submitter_, [&] { streams_[submitter_]->flush(); });
+        on(submitter, [&] { streams_[submitter]->flush(); });
     }
     for (std::size_t d = 0; d < streams_.size(); ++d) {
         on(d, [&] { streams_[d]->finish(); });

@@ -39,9 +39,9 @@ public:
     const int device;  ///< its number in the executor
 };
 
-/// Runs plans: every device works through its part of the tasks, in the plan's order, as soon as
-/// what they depend on is done. Nothing spins. Everything is submitted ahead, so that devices wait
-/// for each other only, never for the host.
+/// Runs plans: every device works through its part of the tasks, as Plan::order has them, as soon
+/// as what they depend on is done. Nothing spins. Everything is submitted ahead, so that devices
+/// wait for each other only, never for the host.
 class Executor {
 public:
     /// bodies  all that steps may use. Devices, bodies and their buffers must outlive the executor.
@@ -74,12 +74,11 @@ private:
     /// Calls on a device's stream; what it throws becomes DeviceLost.
     template <class Call>
     void on(std::size_t device, Call call);
+    std::size_t find_submitter(const scheduler::Plan& plan) const;
     void drain();
 
     std::vector<Device*> devices_;
     std::vector<std::unique_ptr<DeviceStream>> streams_;
-    std::vector<int> submission_cores_;  ///< of the first device that has cores of its own
-    std::size_t submitter_ = 0;          ///< that device
     MemoryMap memory_;
     bool one_memory_ = true;  ///< all devices work in the host's: nothing to copy, nothing to track
     double epoch_;

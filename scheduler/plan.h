@@ -21,7 +21,9 @@ struct Placement {
 /// A plan is reused: planning into it again allocates nothing once it has grown.
 struct Plan {
     std::vector<Placement> placements;  ///< [task]
-    std::vector<TaskId> order;          ///< all tasks, by processor, then in order of execution
+    /// All tasks, by processor, then in order of execution: what executors go by. The times of the
+    /// placements are a forecast.
+    std::vector<TaskId> order;
     std::vector<std::uint32_t> order_begin;  ///< [processor + 1] rows of `order`
     double makespan = 0.0;                   ///< latest end
 
@@ -44,6 +46,10 @@ struct Plan {
     }
     /// At most this part of the makespan could be saved by a better plan: 1 - bound / makespan.
     double gap() const { return makespan > 0.0 ? 1.0 - lower_bound() / makespan : 0.0; }
+
+    /// Fills the order from the placements of a plan that was made by hand; of tasks that start
+    /// together the one with the lower number comes first.
+    void order_by_start(ProcessorId processors);
 
     /// The tasks of one processor in order of execution.
     std::span<const TaskId> tasks_on(ProcessorId p) const {

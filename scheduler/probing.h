@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -8,18 +9,18 @@ namespace weft::scheduler {
 struct ProbeSettings {
     std::uint32_t interval = 30;  ///< frames out of use after which a device may be probed
     double price_share = 0.01;    ///< part of the run time that probes may cost
-    double start_frames = 0.5;    ///< part of the first frame's time that is paid in advance
+    double start_frames = 0.5;    ///< frames' time that first probes may be paid with in advance
 };
 
 /// When to try a device that the plans leave out, since its costs may have been learnt in a bad
 /// moment. Probes are paid from a credit that grows with the run time: so their price is bounded,
 /// however slow the device is, and yet each device is probed again in the end. What is known at the
-/// start is from another time, so all devices are due then: the first probe may be paid from an
-/// advance, which the credit has to make good before the next one.
+/// start is from another time, so all devices are due then: a device's first probe may be paid from
+/// an advance, which the credit has to make good before the next ones.
 class ProbePolicy {
 public:
     explicit ProbePolicy(std::uint32_t devices, const ProbeSettings& settings = {})
-        : settings_(settings), idle_frames_(devices, settings.interval) {}
+        : settings_(settings), idle_frames_(devices, settings.interval), probed_(devices, false) {}
 
     /// Call once per frame.
     /// seconds  what it took
@@ -32,16 +33,20 @@ public:
     /// The device has run tasks of this frame, so its costs are up to date.
     void used(std::uint32_t device) { idle_frames_[device] = 0; }
 
-    /// Whether to probe the device now.
+    /// Whether to probe the device now. What is known of it counts less and less as it grows old:
+    /// down to a quarter.
     /// price  predicted seconds by which the frame gets longer; >= 0.
     bool due(std::uint32_t device, double price) const {
-        return idle_frames_[device] >= settings_.interval && price <= credit_ + advance_;
+        if (idle_frames_[device] < settings_.interval) return false;
+        const double age = static_cast<double>(idle_frames_[device]) / settings_.interval;
+        const double advance = probed_[device] ? 0.0 : advance_;
+        return price / std::clamp(age, 1.0, 4.0) <= credit_ + advance;
     }
     /// A probe was made.
     /// price  as predicted, or as measured [s]
     void paid(std::uint32_t device, double price) {
         credit_ -= price;
-        advance_ = 0.0;
+        probed_[device] = true;
         idle_frames_[device] = 0;
     }
     /// Seconds that probes may cost now; negative after one that was dearer than predicted.
@@ -51,8 +56,9 @@ private:
     ProbeSettings settings_;
     bool is_first_ = true;
     double credit_ = 0.0;
-    double advance_ = 0.0;                    ///< until the first probe
+    double advance_ = 0.0;
     std::vector<std::uint32_t> idle_frames_;  // [device]
+    std::vector<bool> probed_;                // [device]
 };
 
 }  // namespace weft::scheduler

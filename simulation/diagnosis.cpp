@@ -20,6 +20,7 @@ struct Finding {
 scheduler::Plan plan_of_one_task() {
     scheduler::Plan plan;
     plan.placements.push_back({0.0, 1.0, 0});
+    plan.order_by_start(1);
     return plan;
 }
 

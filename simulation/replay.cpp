@@ -34,17 +34,7 @@ scheduler::Plan plan_from(const std::vector<PlanRecord>& tasks, std::size_t devi
         plan.placements.push_back({task.start, task.end, device});
         plan.makespan = std::max(plan.makespan, task.end);
     }
-    plan.order.resize(tasks.size());
-    std::iota(plan.order.begin(), plan.order.end(), 0);
-    std::stable_sort(plan.order.begin(), plan.order.end(), [&](auto a, auto b) {
-        const auto key = [&](scheduler::TaskId t) {
-            return std::pair(plan.placements[t].processor, plan.placements[t].start);
-        };
-        return key(a) < key(b);
-    });
-    plan.order_begin.assign(devices + 1, 0);
-    for (const auto& placement : plan.placements) ++plan.order_begin[placement.processor + 1];
-    std::partial_sum(plan.order_begin.begin(), plan.order_begin.end(), plan.order_begin.begin());
+    plan.order_by_start(static_cast<scheduler::ProcessorId>(devices));
     return plan;
 }
 

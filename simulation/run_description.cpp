@@ -33,7 +33,8 @@ DeviceDescription describe(const DeviceInfo& info) {
             info.driver,
             static_cast<std::uint32_t>(info.units),
             std::string(name_of(info.memory)),
-            info.strict};
+            info.strict,
+            static_cast<std::uint32_t>(info.team)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 #include "runtime/clock.h"
@@ -33,7 +34,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
     warn_of_start(*model_, warnings);
     place();
     open_executor();
-    if (options.calibrate) calibrate(restore_costs());
+    if (options.calibrate) calibrate(restore_costs(), warnings);
 }
 
 Simulation::~Simulation() = default;
@@ -116,28 +117,58 @@ bool Simulation::restore_costs() {
     return true;
 }
 
-void Simulation::save_costs() const {
+void Simulation::save_costs() {
     constexpr int kEnoughFrames = 5;  // the first ones are no rule
     if (options_.cost_file.empty() || frame_ < kEnoughFrames) return;
+    look_at_load();
+    // Later frames have overruled what was learnt before.
+    const int lasting = static_cast<int>(scheduler::CostModelSettings().forget_after);
     SavedCosts saved(options_.cost_file);
+    if (disturbed_frame_ >= 0 && frame_ - disturbed_frame_ <= lasting) return saved.keep();
     saved.save(solver_->bodies(), active_devices(), options_.device_options.strict_math,
                planner_->timing());
 }
 
-/// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards.
-/// costs_known: only what compiles, loads and pages in is left to do.
-void Simulation::calibrate(bool costs_known) {
+/// What others take of the cores, more than now and then, is more than a run's own noise.
+void Simulation::look_at_load() {
+    constexpr double kDisturbing = 0.15;
+    if (load_.others_share().value_or(0.0) > kDisturbing) disturbed_frame_ = frame_;
+}
+
+/// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards. The
+/// first round compiles, loads and pages in. Costs that are known from earlier runs are a first
+/// guess: the machine may have been busy then.
+void Simulation::calibrate(bool costs_known, Warnings& warnings) {
     const auto start = snapshot();
     const int instances = std::min(model_->scene.substeps, 2);
-    const int rounds = costs_known ? 1 : 2;
-    for (int round = 0; round < rounds; ++round) {
+    constexpr int kRounds = 2;
+    for (int round = 0; round < kRounds; ++round) {
         for (const FramePlan& plan : planner_->calibration()) {
+            const auto before = thread_times();
             const RunTimes times = executor_->run(*plan.step, plan.plan, instances);
+            const double threads = threads_at_work(before, thread_times());
             make_room();
-            if (!costs_known) planner_->learn(plan, times, instances);
+            if (round == kRounds - 1) note_limits(plan, times, threads, warnings);
+            if (round > 0 || !costs_known) planner_->learn(plan, times, instances);
             restore(*start);
         }
     }
+}
+
+/// A driver may work with more threads than the part of its device that was asked for has units
+/// (Intel's does).
+void Simulation::note_limits(const FramePlan& plan, const RunTimes& times, double threads,
+                             Warnings& warnings) const {
+    constexpr double kTooMany = 1.5;    // per unit: somebody submits, too
+    constexpr double kShortest = 2e-3;  // [s] below that, submitting is most of it
+    if (std::popcount(plan.devices()) != 1 || times.end - times.start < kShortest) return;
+    const auto number = static_cast<std::size_t>(std::countr_zero(plan.devices()));
+    const DeviceInfo& device = active_devices()[number]->info();
+    if (device.kind != "opencl" || threads < kTooMany * device.units) return;
+    warnings.push_back(fmt::format(
+        "{} was limited to {} compute unit{}, and works with {:.1f} threads: its driver does not "
+        "honour the limit, so it takes the other devices' cores, too",
+        device.name, device.units, device.units == 1 ? "" : "s", threads));
 }
 
 double Simulation::clock() const { return executor_->clock(); }
@@ -237,6 +268,7 @@ void Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
         recorder_->list(plan, times, planner_->timing().costs(), active_, frame);
     }
     planner_->learn(plan, times, substeps);
+    look_at_load();
     end_part(frame, frame.learn_time);
     ++frame_;
     if (details.energies) snapshot()->measure_energies(*model_, time(), frame);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/device_list.h"
+#include "runtime/load_meter.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
 #include "simulation/planning/division.h"
@@ -21,6 +22,7 @@ namespace weft {
 class DeviceLost;
 class Executor;
 class FramePlanner;
+struct FramePlan;
 class FrameRecorder;
 struct RunTimes;
 
@@ -77,8 +79,9 @@ public:
     /// Goes on from there, with the results of a run that was never interrupted. Throws UserError
     /// if the checkpoint's state has another size.
     void resume(const Checkpoint& checkpoint);
-    /// Keeps what was learnt about the devices for later runs, in options.cost_file.
-    void save_costs() const;
+    /// Keeps what was learnt about the devices for later runs, in options.cost_file; not what was
+    /// learnt while others kept the cores busy.
+    void save_costs();
 
     /// Goes on from another state, at the start of `frame`: xyz of all vertices in scene order [m],
     /// [m/s]. What a solver remembers of earlier substeps is forgotten.
@@ -108,7 +111,10 @@ private:
 
     void place();
     void hand_over_placed();
-    void calibrate(bool costs_known);
+    void calibrate(bool costs_known, Warnings& warnings);
+    void look_at_load();
+    void note_limits(const FramePlan& plan, const RunTimes& times, double threads,
+                     Warnings& warnings) const;
     void fetch();
     std::vector<Device*> active_devices() const;
     void open_executor();
@@ -137,6 +143,8 @@ private:
     /// Of the present state; null: none was asked for yet.
     mutable std::shared_ptr<const SimulationState> snapshot_;
     int frame_ = 0;
+    LoadMeter load_;
+    int disturbed_frame_ = -1;  ///< the last one that others were seen to disturb; -1: none
 };
 
 }  // namespace weft

@@ -102,13 +102,17 @@ void add_device_options(CLI::App& command, RunOptions& options) {
     command
         .add_option("--device", options.device,
                     "cpu, gpu, opencl, opencl:NAME, hybrid, or parts joined by '+', as in "
-                    "cpu/1+opencl:0/1: one core, and one compute unit of OpenCL device 0")
+                    "cpu/1+opencl:0/1: one core, and one compute unit of OpenCL device 0; '|' "
+                    "between lists of which the faster one works")
         ->type_name("LIST")
         ->capture_default_str()
         ->group(group);
-    command.add_option("--plan", options.plan, "auto, exact (strips and seams), async, single")
+    command
+        .add_option("--plan", options.plan,
+                    "auto, exact (strips and seams), placed (each task where it is done best), "
+                    "async, single")
         ->type_name("KIND")
-        ->check(one_of({"auto", "exact", "async", "single"}))
+        ->check(one_of({"auto", "exact", "placed", "async", "single"}))
         ->capture_default_str()
         ->group(group);
     command

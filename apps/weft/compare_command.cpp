@@ -25,12 +25,15 @@ struct CompareOptions {
     std::vector<std::string> devices;
 };
 
-/// The devices of the mixture alone, the whole CPU, and the mixture.
+/// The devices of the mixture alone, the whole CPU, the mixture, and where that is more, what takes
+/// turns with it as well.
 std::vector<std::string> default_lists() {
-    const std::string mixture = hybrid_devices();
+    const std::string all = hybrid_devices();
+    const std::string mixture = all.substr(0, all.find('|'));
     std::vector<std::string> lists = devices_of(mixture);
     if (std::find(lists.begin(), lists.end(), "cpu") == lists.end()) lists.emplace_back("cpu");
     if (devices_of(mixture).size() > 1) lists.push_back(mixture);
+    if (all != mixture) lists.emplace_back("hybrid");
     return lists;
 }
 

@@ -57,6 +57,7 @@ void measure_launches(Device& device, DeviceCosts& costs) {
     step.seal();
     scheduler::Plan plan;
     plan.placements.push_back({0.0, 1.0, 0});
+    plan.order_by_start(1);
     costs.batch = median_time(kRounds, [&] { executor.run(step, plan, 1); });
     const double all = median_time(kRounds, [&] { executor.run(step, plan, kBatch); });
     costs.launch = std::max(0.0, all - costs.batch) / (kBatch - 1);

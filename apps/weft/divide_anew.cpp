@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "apps/weft/recorded_scene.h"
 #include "runtime/error.h"
 #include "scheduler/in_order.h"
+#include "simulation/planning/division_search.h"
 #include "simulation/planning/plan_log.h"
 
 namespace weft {
@@ -43,38 +43,11 @@ public:
     }
 
     Division best() {
-        std::vector<double> speeds(static_cast<std::size_t>(devices()), 0.0);
-        Division best;
-        double best_time = kImpossible;
-        const auto consider = [&](const Division& division) {
-            const double time = predict(division);
-            if (time >= best_time) return false;
-            best = division;
-            best_time = time;
-            return true;
-        };
-        for (int d = 0; d < devices(); ++d) {
-            const Division single = Division::single(devices(), strip_count(), d);
-            consider(single);
-            const double time = predict(single);
-            if (time < kImpossible)
-                speeds[static_cast<std::size_t>(d)] = 1.0 / std::max(time, 1e-12);
-        }
-        if (best_time == kImpossible) return Division::single(devices(), strip_count(), 0);
-        Division mixture = share(speeds);
-        double mixture_time = predict(mixture);
-        for (bool better = true; better;) {
-            better = false;
-            for (const Division& neighbour : mixture.neighbours()) {
-                if (predict(neighbour) >= mixture_time) continue;
-                mixture_time = predict(neighbour);
-                mixture = neighbour;
-                better = true;
-                break;
-            }
-        }
-        consider(mixture);
-        return best;
+        std::vector<int> all(static_cast<std::size_t>(devices()));
+        std::iota(all.begin(), all.end(), 0);
+        return DivisionSearch(devices(), strip_count(), std::move(all),
+                              [this](const Division& division) { return predict(division); })
+            .best();
     }
 
     FrameRecord record(const Division& division) {
@@ -84,20 +57,6 @@ public:
 private:
     int devices() const { return static_cast<int>(costs_.devices.size()); }
     int strip_count() const { return model_.strips.count(); }
-
-    /// In proportion to the speeds; nothing for devices without any.
-    Division share(const std::vector<double>& speeds) const {
-        std::vector<double> able;
-        std::copy_if(speeds.begin(), speeds.end(), std::back_inserter(able),
-                     [](double speed) { return speed > 0.0; });
-        const Division shares = Division::proportional(strip_count(), able);
-        Division division{std::vector<int>(speeds.size(), 0)};
-        auto next = shares.strips.begin();
-        for (std::size_t d = 0; d < speeds.size(); ++d) {
-            if (speeds[d] > 0.0) division.strips[d] = *next++;
-        }
-        return division;
-    }
 
     /// With every task on the device that has its strips, as runs plan it.
     double predict(const Division& division) {

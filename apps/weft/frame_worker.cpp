@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <sstream>
@@ -47,13 +48,19 @@ std::string read_line(int descriptor) {
 
 std::string frame_line(Simulation& simulation) {
     const FrameRecord frame = simulation.advance({.tasks = false, .energies = false});
-    const double busy = std::accumulate(frame.busy.begin(), frame.busy.end(), 0.0);
-    const double devices = static_cast<double>(frame.busy.size());
+    const auto& devices = simulation.devices();
+    double busy = 0.0;  // of those that could have been
     int taking_part = 0;
-    for (const double b : frame.busy) taking_part += b > 0.0 ? 1 : 0;
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+        const auto team = std::ranges::count_if(devices, [&](const auto& other) {
+            return other->info().team == devices[d]->info().team;
+        });
+        busy += frame.busy[d] / static_cast<double>(team);
+        taking_part += frame.busy[d] > 0.0 ? 1 : 0;
+    }
     return fmt::format("{} {} {} {} {} {}", 1e3 * frame.wall_time(), 1e3 * frame.planned_makespan,
                        1e3 * frame.measured_makespan, 1e3 * frame.plan_time,
-                       busy / devices / frame.measured_makespan, taking_part > 1 ? 1 : 0);
+                       busy / frame.measured_makespan, taking_part > 1 ? 1 : 0);
 }
 
 std::string end_line(const Simulation& simulation) {

@@ -24,9 +24,10 @@ std::optional<MemoryModel> memory_model(const std::string& name) {
 PlanKind plan_kind(const std::string& name) {
     if (name == "auto") return PlanKind::kAuto;
     if (name == "exact") return PlanKind::kExact;
+    if (name == "placed") return PlanKind::kPlaced;
     if (name == "single") return PlanKind::kSingle;
     throw UserError(fmt::format(
-        "--plan {}: not in this version of weft; available: auto, exact, single", name));
+        "--plan {}: not in this version of weft; available: auto, exact, placed, single", name));
 }
 
 /// Of the user, unless a sweep keeps its own: runs side by side measure other times than alone.

@@ -28,6 +28,7 @@ public:
             plan_.placements.push_back({static_cast<double>(t), static_cast<double>(t + 1), 0});
         }
         step_.seal();
+        plan_.order_by_start(1);
     }
 
     void run() { executor_.run(step_, plan_, kInstances); }

@@ -121,13 +121,15 @@ std::vector<OpenClDeviceSummary> opencl_devices() {
 }
 
 std::vector<std::unique_ptr<Device>> open_opencl_device(int index, const std::vector<int>& parts,
-                                                        const DeviceOptions& options) {
+                                                        const DeviceOptions& options, int team) {
     const cl::Device& whole = all_devices().at(static_cast<std::size_t>(index));
     std::vector<std::unique_ptr<Device>> opened;
     try {
         const auto devices = parts.empty() ? std::vector<cl::Device>{whole} : divide(whole, parts);
         for (const cl::Device& device : devices) {
-            opened.push_back(std::make_unique<OpenClDevice>(describe(device, options)));
+            OpenClTarget target = describe(device, options);
+            target.info.team = team;
+            opened.push_back(std::make_unique<OpenClDevice>(std::move(target)));
         }
     } catch (const cl::Error& error) {
         if (error.err() == CL_DEVICE_PARTITION_FAILED || error.err() == CL_INVALID_VALUE) {

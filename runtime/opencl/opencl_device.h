@@ -27,6 +27,6 @@ std::vector<OpenClDeviceSummary> opencl_devices();
 /// Opens device `index` of opencl_devices(). With `parts`, the device is divided into sub-devices
 /// of so many compute units each, from its first unit on, and one device is opened per part.
 std::vector<std::unique_ptr<Device>> open_opencl_device(int index, const std::vector<int>& parts,
-                                                        const DeviceOptions& options);
+                                                        const DeviceOptions& options, int team = 0);
 
 }  // namespace weft

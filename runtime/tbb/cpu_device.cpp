@@ -296,12 +296,13 @@ private:
 
 class CpuDevice final : public Device {
 public:
-    CpuDevice(int threads, std::vector<int> cores, int lanes) {
+    CpuDevice(int threads, std::vector<int> cores, int lanes, int team) {
         info_.name = "TBB, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         info_.kind = "tbb";
         info_.units = threads;
         info_.lanes = lanes;
         info_.cores = std::move(cores);
+        info_.team = team;
     }
 
     const DeviceInfo& info() const override { return info_; }
@@ -316,8 +317,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Device> make_cpu_device(int threads, std::vector<int> cores, int lanes) {
-    return std::make_unique<CpuDevice>(threads, std::move(cores), lanes);
+std::unique_ptr<Device> make_cpu_device(int threads, std::vector<int> cores, int lanes, int team) {
+    return std::make_unique<CpuDevice>(threads, std::move(cores), lanes, team);
 }
 
 }  // namespace weft

@@ -21,6 +21,7 @@ struct DeviceDescription {
     std::uint32_t units = 0;  ///< threads or compute units in use
     std::string memory;       ///< "host" (zero copy) or "discrete" (range copies)
     bool exact = true;        ///< rounds + - * / sqrt as strict arithmetic asks
+    std::uint32_t team = 0;   ///< devices of one team work together, teams take turns
 };
 
 using TextPairs = std::vector<std::pair<std::string, std::string>>;

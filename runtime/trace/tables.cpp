@@ -79,6 +79,7 @@ struct DeviceRow {
     std::uint32_t units;
     const char* memory;
     signed char exact;
+    std::uint32_t team;
 };
 
 hdf5::Handle device_type(hid_t text, hid_t boolean) {
@@ -88,7 +89,8 @@ hdf5::Handle device_type(hid_t text, hid_t boolean) {
                           {"driver", text, offsetof(DeviceRow, driver)},
                           {"units", H5T_NATIVE_UINT32, offsetof(DeviceRow, units)},
                           {"memory", text, offsetof(DeviceRow, memory)},
-                          {"exact", boolean, offsetof(DeviceRow, exact)}});
+                          {"exact", boolean, offsetof(DeviceRow, exact)},
+                          {"team", H5T_NATIVE_UINT32, offsetof(DeviceRow, team)}});
 }
 
 }  // namespace
@@ -227,8 +229,8 @@ void write_devices(hid_t run_group, const std::vector<DeviceDescription>& device
     std::vector<DeviceRow> rows;
     for (const DeviceDescription& device : devices) {
         rows.push_back({device.name.c_str(), device.kind.c_str(), device.driver.c_str(),
-                        device.units, device.memory.c_str(),
-                        static_cast<signed char>(device.exact)});
+                        device.units, device.memory.c_str(), static_cast<signed char>(device.exact),
+                        device.team});
     }
     const hdf5::Handle text = hdf5::string_type();
     const hdf5::Handle boolean = hdf5::bool_type();
@@ -252,7 +254,7 @@ std::vector<DeviceDescription> read_devices(hid_t run_group) {
     const auto value = [](const char* string) { return std::string(string ? string : ""); };
     for (const DeviceRow& row : rows) {
         devices.push_back({value(row.name), value(row.kind), value(row.driver), row.units,
-                           value(row.memory), row.exact != 0});
+                           value(row.memory), row.exact != 0, row.team});
     }
     H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, rows.data());
     return devices;

@@ -97,7 +97,9 @@ SummaryBuilder::SummaryBuilder(const RunDescription& run)
     summary_.host = run.host;
     summary_.versions = run.versions;
     for (const DeviceDescription& device : run.devices) {
-        summary_.devices.push_back({device.name, device.kind, device.units, 0.0, 0.0});
+        const auto size = std::ranges::count(run.devices, device.team, &DeviceDescription::team);
+        summary_.devices.push_back(
+            {device.name, device.kind, device.units, 0.0, 0.0, 1.0 / static_cast<double>(size)});
     }
 }
 
@@ -150,7 +152,7 @@ RunSummary SummaryBuilder::summary() const {
     const double makespans = std::accumulate(measured.begin(), measured.end(), 0.0);
     for (RunSummary::Device& device : result.devices) {
         device.utilisation = ratio(device.busy, makespans);
-        result.utilisation += device.utilisation / static_cast<double>(result.devices.size());
+        result.utilisation += device.utilisation * device.share;
     }
     return result;
 }
@@ -176,7 +178,7 @@ void SummaryBuilder::restore(std::span<const std::uint8_t> saved) {
         json.at("transferred_bytes").get_to(summary_.transferred_bytes);
         json.at("energies").get_to(summary_.energies);
         for (const auto& d : json.at("devices"))
-            restore_device({d.at(0), d.at(1), d.at(2), d.at(3), 0.0});
+            restore_device({d.at(0), d.at(1), d.at(2), d.at(3)});
         for (const auto& f : json.at("frames")) {
             frames_.push_back({f.at(0), f.at(1), f.at(2), f.at(3), f.at(4), {}});
             f.at(5).get_to(frames_.back().parts);

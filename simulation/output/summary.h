@@ -22,6 +22,7 @@ struct RunSummary {
         std::uint32_t units = 0;
         double busy = 0.0;         ///< time spent in tasks, all frames [s]
         double utilisation = 0.0;  ///< busy / measured makespan of all frames
+        double share = 1.0;        ///< of its team, of which one works at a time: 1 / its devices
     };
 
     std::string scene;

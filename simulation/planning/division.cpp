@@ -62,14 +62,16 @@ int Division::distance(const Division& other) const {
     return most;
 }
 
-std::vector<Division> Division::neighbours() const {
+std::vector<Division> Division::neighbours(std::span<const int> among) const {
     std::vector<Division> list;
-    for (std::size_t d = 0; d + 1 < strips.size(); ++d) {
+    for (std::size_t i = 0; i + 1 < among.size(); ++i) {
+        const auto d = static_cast<std::size_t>(among[i]);
+        const auto next = static_cast<std::size_t>(among[i + 1]);
         for (const int moved : {-1, 1}) {
             Division other = *this;
             other.strips[d] += moved;
-            other.strips[d + 1] -= moved;
-            if (other.strips[d] >= 0 && other.strips[d + 1] >= 0) list.push_back(std::move(other));
+            other.strips[next] -= moved;
+            if (other.strips[d] >= 0 && other.strips[next] >= 0) list.push_back(std::move(other));
         }
     }
     return list;

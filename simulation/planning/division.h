@@ -24,8 +24,8 @@ struct Division {
     unsigned mask() const;
     /// The most strips that a device has more or less in the other one.
     int distance(const Division& other) const;
-    /// Every division that differs by one strip handed to a neighbouring device.
-    std::vector<Division> neighbours() const;
+    /// Every division that differs by one strip handed to the next one of these devices, or back.
+    std::vector<Division> neighbours(std::span<const int> among) const;
 
     friend auto operator<=>(const Division&, const Division&) = default;
 };

@@ -1,7 +1,6 @@
 #include "simulation/planning/frame_planner.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,28 +11,44 @@ namespace weft {
 
 namespace {
 
-constexpr std::size_t kMostCandidates = 64;
-/// Another division of the mixture has to be predicted faster by this much: less is noise, and
-/// every change costs caches and, on discrete memory, copies.
-constexpr double kDivisionMargin = 0.002;
-/// A division is worth a look of its own if a device has more strips more or less by it.
-constexpr int kFarStrips = 2;
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+/// What is known at the start may be from another hour or from devices half asleep, so what it
+/// speaks against is tried all the same unless it takes more than half as long again.
+constexpr scheduler::ProbeSettings kProbes{.start_frames = 1.0};
+
+/// Whether another device of another team is the same one, with more units: alone, it is better.
+bool is_part_of_another(const std::vector<Device*>& devices, std::size_t d) {
+    const DeviceInfo& own = devices[d]->info();
+    return std::ranges::any_of(devices, [&](const Device* device) {
+        const DeviceInfo& other = device->info();
+        return other.team != own.team && other.kind == own.kind && other.driver == own.driver &&
+               other.units > own.units;
+    });
+}
+
+/// Of the first team.
+std::size_t team_size(const std::vector<Device*>& devices) {
+    return static_cast<std::size_t>(std::ranges::count_if(devices, [&](const Device* device) {
+        return device->info().team == devices.front()->info().team;
+    }));
+}
 
 }  // namespace
 
 FramePlanner::FramePlanner(Solver& solver, int strip_count, const std::vector<Device*>& devices,
                            PlanKind kind, std::optional<Division> division)
-    : solver_(solver),
-      strip_count_(strip_count),
-      devices_(devices),
+    : devices_(devices),
       kind_(kind),
       fixed_(std::move(division)),
-      timing_(solver.kinds().size(), devices.size()),
-      choice_(static_cast<std::uint32_t>(devices.size()) + 1),
-      probes_(static_cast<std::uint32_t>(devices.size())),
-      mixture_(equal_shares()) {
+      feedback_(solver.kinds().size(), devices.size(), Candidates::most(devices.size())),
+      candidates_(solver, strip_count, devices, feedback_.timing()),
+      trials_(candidates_.count(), kProbes) {
+    if (kind_ == PlanKind::kPlaced && !candidates_.can_place()) kind_ = PlanKind::kAuto;
     if (!fixed_) return;
-    const auto& given = fixed_->strips;
+    auto& given = fixed_->strips;
+    // Who names the first team's shares leaves nothing to the others.
+    if (given.size() == team_size(devices)) given.resize(devices.size(), 0);
     const int sum = std::accumulate(given.begin(), given.end(), 0);
     if (given.size() == devices.size() && sum == strip_count) return;
     throw UserError("the division of the strips names " + std::to_string(given.size()) +
@@ -42,259 +57,122 @@ FramePlanner::FramePlanner(Solver& solver, int strip_count, const std::vector<De
                     " strips");
 }
 
-std::uint32_t FramePlanner::alternative_of(const Division& division) const {
-    const auto devices = division.devices();
-    return static_cast<std::uint32_t>(devices.size() == 1 ? devices[0] : device_count());
+/// What the kind of plan that is asked for leaves to choose from.
+bool FramePlanner::is_wanted(std::uint32_t alternative) const {
+    const bool can_mix = candidates_.can_mix();
+    if (candidates_.is_single(alternative)) {
+        return (kind_ == PlanKind::kAuto && !is_part_of_another(devices_, alternative)) ||
+               kind_ == PlanKind::kSingle || !can_mix;
+    }
+    switch (kind_) {
+        case PlanKind::kAuto:
+            return true;
+        case PlanKind::kExact:
+            return !candidates_.is_placed(alternative);
+        case PlanKind::kPlaced:
+            return candidates_.is_placed(alternative);
+        case PlanKind::kSingle:
+            break;
+    }
+    return false;
 }
 
-FramePlanner::Candidate& FramePlanner::candidate(const Division& division) {
-    auto& known = candidates_[division];
-    if (known) return *known;
-    known = std::make_unique<Candidate>();
-    known->step = solver_.make_step(division.partition());
-    known->devices = division.devices();
-    const auto processors = static_cast<scheduler::ProcessorId>(device_count());
-    const std::vector<double> no_cost(devices_.size(), 0.0);
-    for (scheduler::TaskGraph* graph : {&known->pinned, &known->free}) {
-        graph->clear(processors);
-        for (const Task& task : known->step.tasks()) {
-            graph->add_task(no_cost, {.kind = task.body->kind, .iteration = task.iteration});
+/// Seconds of a substep and, with what has been learnt and what moving there takes, of a frame.
+void FramePlanner::find_expectations() {
+    const std::uint32_t count = candidates_.count();
+    predicted_.assign(count, kImpossible);
+    expected_.assign(count, kImpossible);
+    for (std::uint32_t a = 0; a < count; ++a) {
+        if (!is_wanted(a)) continue;
+        predicted_[a] = candidates_.predict(a);
+        if (last_instances_ == 0) continue;
+        if (a != current_.alternative && !where_.empty()) {
+            predicted_[a] += candidates_.moving_time(where_, a) / last_instances_;
         }
-        for (const Dependency& d : known->step.dependencies()) {
-            graph->add_edge(static_cast<scheduler::TaskId>(d.from),
-                            static_cast<scheduler::TaskId>(d.to), d.bytes);
-        }
-    }
-    return *known;
-}
-
-void FramePlanner::refresh(const Candidate& candidate, scheduler::TaskGraph& graph, bool pinned) {
-    cost_.resize(devices_.size());
-    const auto& tasks = candidate.step.tasks();
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const int own = own_device(candidate, t);
-        for (int d = 0; d < device_count(); ++d) {
-            cost_[static_cast<std::size_t>(d)] =
-                pinned && d != own ? scheduler::kCannotRun : timing_.task(tasks[t], d);
-        }
-        graph.set_cost(static_cast<scheduler::TaskId>(t), cost_);
-    }
-    if (graph.sealed() && links_are_current(graph)) return;
-    for (int p = 0; p < device_count(); ++p) {
-        for (int q = 0; q < device_count(); ++q) {
-            if (p == q) continue;
-            graph.set_link(static_cast<scheduler::ProcessorId>(p),
-                           static_cast<scheduler::ProcessorId>(q), timing_.latency(p, q),
-                           std::numeric_limits<double>::infinity());
-        }
-    }
-    graph.seal();
-}
-
-/// Sealing takes longer than planning, so small changes of latencies wait until they add up.
-bool FramePlanner::links_are_current(const scheduler::TaskGraph& graph) const {
-    for (int p = 0; p < device_count(); ++p) {
-        for (int q = 0; q < device_count(); ++q) {
-            if (p == q) continue;
-            const double used = graph.latency(static_cast<scheduler::ProcessorId>(p),
-                                              static_cast<scheduler::ProcessorId>(q));
-            if (std::abs(used - timing_.latency(p, q)) > 0.1 * timing_.latency(p, q)) return false;
-        }
-    }
-    return true;
-}
-
-double FramePlanner::predict(const Division& division) {
-    Candidate& c = candidate(division);
-    if (c.predicted_in != frame_) {
-        refresh(c, c.pinned, true);
-        c.makespan = in_order_.makespan(c.pinned);
-        c.predicted_in = frame_;
-    }
-    return c.makespan;
-}
-
-double FramePlanner::expect(const Division& division) {
-    return predict(division) * choice_.correction(alternative_of(division));
-}
-
-/// One step of a hill climb per frame: the best of the mixture, its neighbours and, where that is
-/// far away (speeds have changed), what the speeds suggest.
-void FramePlanner::improve_mixture() {
-    double best_time = predict(mixture_) * (1.0 - kDivisionMargin);
-    std::vector<Division> others = mixture_.neighbours();
-    Division by_speed = divide_by_speed();
-    if (by_speed.distance(mixture_) > kFarStrips) others.push_back(std::move(by_speed));
-    for (Division& other : others) {
-        if (other.devices().size() < 2) continue;
-        const double time = predict(other);
-        if (time >= best_time) continue;
-        best_time = time;
-        mixture_ = std::move(other);
+        expected_[a] = predicted_[a] * feedback_.slowdown(a) * last_instances_;
     }
 }
 
-Division FramePlanner::choose() {
-    constexpr double kOutOfQuestion = std::numeric_limits<double>::infinity();
-    if (fixed_) return *fixed_;
-    if (can_mix() && kind_ != PlanKind::kSingle) improve_mixture();
-    if (can_mix() && kind_ == PlanKind::kExact) return mixture_;
-    predicted_.clear();
-    for (int d = 0; d < device_count(); ++d) predicted_.push_back(predict(single(d)));
-    const bool mix = can_mix() && kind_ == PlanKind::kAuto;
-    predicted_.push_back(mix ? predict(mixture_) : kOutOfQuestion);
-    const int chosen = static_cast<int>(choice_.choose(predicted_));
-    const Division division = chosen == device_count() ? mixture_ : single(chosen);
-    return probe(division).value_or(division);
-}
-
-/// A plan that lets one of the devices that the chosen one leaves out do something, if it is time
-/// to look at it again and the price can be paid.
-std::optional<Division> FramePlanner::probe(const Division& chosen) {
-    is_trial_ = false;
-    if (last_instances_ == 0) return std::nullopt;  // what a frame takes is not known yet
-    to_beat_ = expect(chosen);
-    for (int d = 0; d < device_count(); ++d) {
-        const auto device = static_cast<std::uint32_t>(d);
-        if (chosen.strips[device] > 0 || !probes_.due(device, 0.0)) continue;
-        for (const Division& trial : trials_of(d, chosen)) {
-            const double price = expect(trial) / to_beat_ - 1.0;
-            const double seconds = std::max(0.0, price) * last_frame_time_;
-            if (!probes_.due(device, seconds)) continue;
-            probes_.paid(device, seconds);
-            is_trial_ = true;
-            return trial;
-        }
+std::uint32_t FramePlanner::choose() {
+    if (kind_ != PlanKind::kSingle) candidates_.improve_mixtures();
+    if (kind_ == PlanKind::kAuto || kind_ == PlanKind::kPlaced) {
+        candidates_.improve_placements(kind_ == PlanKind::kPlaced);
     }
-    return std::nullopt;
-}
-
-/// Those that tell most come first. With an equal share a device shows what it can do: one that
-/// gets little waits much, and looks slow. The best mixture known shows whether it deserves what
-/// has been learnt of it.
-std::vector<Division> FramePlanner::trials_of(int device, const Division& chosen) const {
-    if (kind_ == PlanKind::kSingle || !can_mix()) return {single(device)};
-    const auto d = static_cast<std::size_t>(device);
-    std::vector<Division> trials;
-    if (Division equal = equal_shares(); equal.strips[d] > mixture_.strips[d]) {
-        trials.push_back(std::move(equal));
+    find_expectations();
+    // Everybody's share is no choice of its own: it is there for trials.
+    std::vector<double>& choice = choosable_;
+    choice = predicted_;
+    for (std::uint32_t a = 0; a < choice.size(); ++a) {
+        if (candidates_.is_everybody(a)) choice[a] = kImpossible;
     }
-    trials.push_back(mixture_.strips[d] > 0 ? mixture_ : with_one_strip_for(device, chosen));
-    return trials;
+    return feedback_.choice().choose(choice);
 }
 
-/// From the device with the most strips: it has one to spare.
-Division FramePlanner::with_one_strip_for(int device, const Division& chosen) const {
-    Division division = chosen;
-    --*std::ranges::max_element(division.strips);
-    ++division.strips[static_cast<std::size_t>(device)];
-    return division;
-}
-
-/// The solver's own order of tasks is made to hide the exchange; HEFT with insertion may know a
-/// better one.
-void FramePlanner::fill(const Division& division) {
-    Candidate& c = candidate(division);
-    refresh(c, c.pinned, true);
-    in_order_.schedule(c.pinned, current_.plan);
-    if (division.devices().size() > 1) {
-        heft_.schedule(c.pinned, trial_);
-        if (trial_.makespan < current_.plan.makespan * (1.0 - kDivisionMargin)) {
-            std::swap(trial_, current_.plan);
-        }
-        refresh(c, c.free, false);
-        bounds_.apply(c.free, current_.plan);
-    } else {
-        bounds_.apply(c.pinned, current_.plan);
-    }
-    current_.step = &c.step;
-    current_.graph = &c.pinned;
-    current_.division = division;
-    current_.slowdown = choice_.correction(alternative_of(division)) * pace_();
+/// The plan to try instead of the chosen one, if it is time for that.
+std::uint32_t FramePlanner::or_trial(std::uint32_t chosen) {
+    to_beat_ = expected_[chosen];
+    if (last_instances_ == 0) return chosen;  // what a frame takes is not known yet
+    return trials_.next(chosen, expected_).value_or(chosen);
 }
 
 const FramePlan& FramePlanner::next() {
     const double start = now();
-    ++frame_;
-    if (candidates_.size() > kMostCandidates) candidates_.clear();
-    const Division division = choose();
-    learn_pace();
-    fill(division);
+    candidates_.forget_predictions();
+    if (fixed_) {
+        candidates_.fill(*fixed_, current_);
+    } else {
+        const std::uint32_t chosen = choose();
+        candidates_.fill(or_trial(chosen), current_);
+    }
+    current_.slowdown = feedback_.slowdown(current_.alternative);
+    current_.waking = (current_.devices() & ~awake_) != 0;
     current_.plan_time = now() - start;
     return current_;
 }
 
 std::vector<FramePlan> FramePlanner::calibration() {
     std::vector<FramePlan> plans;
-    const auto add = [&](const Division& division, int device) {
-        Candidate& c = candidate(division);
-        if (device >= 0) std::fill(c.devices.begin(), c.devices.end(), device);
-        refresh(c, c.pinned, true);
+    std::vector<bool> in_a_team(devices_.size(), false);
+    for (std::size_t t = 0; t < candidates_.team_count(); ++t) {
+        // Cut in two and run by one device: each kind of task is seen with few and with many items.
+        for (const int d : candidates_.team(t)) {
+            plans.push_back(candidates_.rehearsal(t, d));
+            in_a_team[static_cast<std::size_t>(d)] = true;
+        }
+        plans.push_back(candidates_.rehearsal(t, std::nullopt));
+    }
+    for (std::uint32_t d = 0; d < devices_.size(); ++d) {
+        if (in_a_team[d]) continue;
         FramePlan& plan = plans.emplace_back();
-        plan.step = &c.step;
-        plan.division = division;
+        candidates_.fill(d, plan);
         plan.calibrates = true;
-        in_order_.schedule(c.pinned, plan.plan);
-        c.devices = division.devices();
-    };
-    // Cut in two and run by one device: so each kind of task is seen with few and with many items.
-    for (int d = 0; d < device_count(); ++d) add(can_mix() ? mixture_ : single(d), d);
-    if (can_mix()) add(mixture_, -1);
+    }
     return plans;
 }
 
 void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int instances) {
-    const auto task_times = timing_.learn(*plan.step, plan.plan, times, instances);
-    ++frame_;  // predictions from before are void
-    if (plan.calibrates) {
-        balance_mixture();
-        return;
-    }
-    last_frame_time_ = times.end - times.start;
-    probes_.end_frame(last_frame_time_);
-    for (const int d : plan.division.devices()) probes_.used(static_cast<std::uint32_t>(d));
-    last_division_ = plan.division;
-    last_was_trial_ = is_trial_;
+    feedback_.learn(plan, times, instances, trials_.running());
+    candidates_.forget_predictions();
+    if (plan.calibrates) return candidates_.balance();
+    awake_ = plan.devices();
+    where_ = plan.strip_devices();
     last_instances_ = instances;
-    // Faster than the chosen one is expected to be: whatever made it look slow has passed.
-    if (is_trial_ && last_frame_time_ < to_beat_ * pace_() * instances) {
-        choice_.forget(alternative_of(plan.division));
+    for (std::uint32_t a = 0; a < candidates_.count(); ++a) {
+        if ((candidates_.devices_of(a) & ~awake_) == 0) trials_.used(a);
     }
-    choice_.measured(alternative_of(plan.division),
-                     makespan_of(plan.division, task_times) * instances, last_frame_time_);
-}
-
-/// By the costs of now, which may have learnt from the last frame already; not by trials, of whose
-/// plans too little is known. The pace concerns all plans alike, so it decides nothing. Measured on
-/// a shared host: the median error of planned times was 7 to 22 % without it and 5 to 7 % with it,
-/// which is what frames differ by from each other.
-void FramePlanner::learn_pace() {
-    if (last_instances_ == 0 || last_was_trial_) return;
-    pace_.frame(expect(last_division_) * last_instances_, last_frame_time_);
-}
-
-/// What the plan would have been predicted to take had the costs of its tasks been known. Compared
-/// with what it took, this is what the planner gets wrong (submission, jitter, substeps that
-/// overlap); a wrong cost is the business of the cost model, and no bad name for the plan.
-double FramePlanner::makespan_of(const Division& division, const std::vector<double>& task_times) {
-    Candidate& c = candidate(division);
-    for (std::size_t t = 0; t < task_times.size(); ++t) {
-        cost_.assign(devices_.size(), scheduler::kCannotRun);
-        cost_[static_cast<std::size_t>(own_device(c, t))] = task_times[t];
-        c.pinned.set_cost(static_cast<scheduler::TaskId>(t), cost_);
+    if (const auto better = trials_.end_frame(times.end - times.start, to_beat_)) {
+        end_trial(*better);
     }
-    return in_order_.makespan(c.pinned);
 }
 
-Division FramePlanner::divide_by_speed() {
-    std::vector<double> speeds;
-    for (int d = 0; d < device_count(); ++d) {
-        const double time = predict(single(d));
-        speeds.push_back(time > 0.0 ? 1.0 / time : 1.0);
+/// It was faster than the chosen one is expected to be: whatever made it look slow has passed.
+void FramePlanner::end_trial(std::uint32_t alternative) {
+    if (candidates_.is_everybody(alternative)) {
+        candidates_.adopt_everybody(alternative);
+        alternative = candidates_.mixture_beside(alternative);
     }
-    return Division::proportional(strip_count_, speeds);
+    feedback_.choice().forget(alternative);
+    feedback_.choice().prefer(alternative);
 }
-
-void FramePlanner::balance_mixture() { mixture_ = divide_by_speed(); }
 
 }  // namespace weft

@@ -3,8 +3,9 @@
 namespace weft {
 
 enum class PlanKind {
-    kAuto,    ///< the mixture of all devices or a single one, whichever is predicted to be faster
-    kExact,   ///< always the mixture
+    kAuto,    ///< whatever is predicted to be the fastest of all these
+    kExact,   ///< always a mixture: the strips are divided among the devices
+    kPlaced,  ///< each task on the device that suits it
     kSingle,  ///< the best single device
 };
 

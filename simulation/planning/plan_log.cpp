@@ -1,7 +1,5 @@
 #include "simulation/planning/plan_log.h"
 
-#include <algorithm>
-
 namespace weft {
 
 namespace {
@@ -15,29 +13,31 @@ void add(std::vector<DependencyRecord>& records, const std::vector<Dependency>& 
     }
 }
 
-/// Without device, place in its queue and times.
-PlanRecord task_record(scheduler::TaskId id, const Task& task, const std::vector<int>& homes) {
+/// Without home, device, place in its queue and times.
+PlanRecord task_record(scheduler::TaskId id, const Task& task) {
     PlanRecord record;
     record.task = id;
     record.kind = u32(task.body->kind);
     record.iteration = u32(task.iteration);
     record.first_strip = u32(task.first_strip);
     record.strip_count = u32(task.end_strip - task.first_strip);
-    record.home = u32(homes[static_cast<std::size_t>(task.region)]);
     record.items = static_cast<std::uint64_t>(task.items);
     return record;
 }
 
 std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& numbers) {
     std::vector<PlanRecord> records;
-    std::vector<int> homes = plan.division.devices();
-    for (int& home : homes) home = numbers[static_cast<std::size_t>(home)];
-    for (scheduler::ProcessorId d = 0; d < plan.graph->processor_count(); ++d) {
+    const auto number_of = [&](std::size_t device) { return u32(numbers[device]); };
+    for (scheduler::ProcessorId d = 0; d < plan.graph.processor_count(); ++d) {
         std::uint32_t order = 0;
         for (const scheduler::TaskId id : plan.plan.tasks_on(d)) {
-            PlanRecord& record =
-                records.emplace_back(task_record(id, plan.step->tasks()[id], homes));
-            record.device = u32(numbers[d]);
+            const Task& task = plan.step->tasks()[id];
+            const auto region = static_cast<std::size_t>(task.region);
+            PlanRecord& record = records.emplace_back(task_record(id, task));
+            record.device = number_of(d);
+            record.home = plan.is_placed()
+                              ? record.device
+                              : number_of(static_cast<std::size_t>(plan.homes[region]));
             record.order = order++;
             record.start = plan.plan.placements[id].start;
             record.end = plan.plan.placements[id].end;
@@ -46,9 +46,21 @@ std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& 
     return records;
 }
 
-GraphRecord graph_record(const Step& step, const Division& division) {
+/// Of one division: the devices' shares; of tasks that are placed one by one: the parts.
+std::vector<std::uint32_t> strips_of(const FramePlan& plan, const std::vector<int>& numbers,
+                                     std::size_t devices) {
+    if (plan.is_placed()) return {plan.parts.begin(), plan.parts.end()};
+    std::vector<std::uint32_t> strips(devices, 0);
+    const Division division = plan.division();
+    for (std::size_t d = 0; d < numbers.size(); ++d) {
+        strips[static_cast<std::size_t>(numbers[d])] = u32(division.strips[d]);
+    }
+    return strips;
+}
+
+GraphRecord graph_record(const Step& step, std::vector<std::uint32_t> strips) {
     GraphRecord record;
-    record.strips.assign(division.strips.begin(), division.strips.end());
+    record.strips = std::move(strips);
     add(record.dependencies, step.dependencies(), 0);
     add(record.dependencies, step.carried(), 1);
     return record;
@@ -88,34 +100,30 @@ void PlanLog::record(const FramePlan& plan, const scheduler::CostModel& costs,
     frame.graph = graph_of(plan, numbers);
     frame.plan = tasks_of(plan, numbers);
     frame.costs = costs_of(costs, numbers);
-    frame.links = links_of(*plan.graph, numbers);
+    frame.links = links_of(plan.graph, numbers);
 }
 
 std::shared_ptr<const GraphRecord> PlanLog::graph_of(const FramePlan& plan,
                                                      const std::vector<int>& numbers) {
-    Division division{std::vector<int>(devices_, 0)};
-    for (std::size_t d = 0; d < numbers.size(); ++d) {
-        division.strips[static_cast<std::size_t>(numbers[d])] = plan.division.strips[d];
-    }
+    std::vector<std::uint32_t> strips = strips_of(plan, numbers, devices_);
     const std::size_t dependencies = plan.step->dependencies().size() + plan.step->carried().size();
     for (const auto& known : graphs_) {
-        if (std::ranges::equal(known->strips, division.strips) &&
-            known->dependencies.size() == dependencies) {
-            return known;
-        }
+        if (known->strips == strips && known->dependencies.size() == dependencies) return known;
     }
-    GraphRecord own = graph_record(*plan.step, division);
+    GraphRecord own = graph_record(*plan.step, std::move(strips));
     own.graph = static_cast<std::uint32_t>(graphs_.size());
     return graphs_.emplace_back(std::make_shared<const GraphRecord>(std::move(own)));
 }
 
 FrameRecord record_of(const Step& step, const Division& division) {
     FrameRecord frame;
-    frame.graph = std::make_shared<const GraphRecord>(graph_record(step, division));
+    frame.graph = std::make_shared<const GraphRecord>(graph_record(
+        step, std::vector<std::uint32_t>(division.strips.begin(), division.strips.end())));
     const std::vector<int> homes = division.devices();
     for (const Task& task : step.tasks()) {
-        frame.plan.push_back(
-            task_record(static_cast<scheduler::TaskId>(frame.plan.size()), task, homes));
+        PlanRecord& record = frame.plan.emplace_back(
+            task_record(static_cast<scheduler::TaskId>(frame.plan.size()), task));
+        record.home = u32(homes[static_cast<std::size_t>(task.region)]);
     }
     return frame;
 }

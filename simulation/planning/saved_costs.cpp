@@ -117,6 +117,12 @@ void SavedCosts::save(std::span<const TaskBody* const> bodies, const std::vector
     write();
 }
 
+void SavedCosts::keep() {
+    const CacheLock lock(path_);
+    read();
+    write();
+}
+
 void SavedCosts::read() {
     const Json json = Json::parse(read_cached(path_), nullptr, false);
     if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) return;

@@ -29,6 +29,9 @@ public:
     void save(std::span<const TaskBody* const> bodies, const std::vector<Device*>& devices,
               bool strict, const TimingModel& timing);
 
+    /// Leaves the file as others have written it; makes one that knows nothing where there is none.
+    void keep();
+
 private:
     void read();
     void write() const;

@@ -1,6 +1,7 @@
 #include "simulation/planning/timing_model.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace weft {
 
@@ -11,6 +12,8 @@ constexpr double kFirstLatency = 50e-6;  ///< [s] until it has been measured
 constexpr int kOldFrames = 24;
 constexpr double kFading = 0.95;  ///< of a latency, per frame in which it is hidden
 constexpr double kShortestLatency = 1e-6, kLongestLatency = 5e-3;
+/// Shorter copies say more of the latency than of the bandwidth [bytes].
+constexpr std::uint64_t kLongCopy = 32768;
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -22,8 +25,9 @@ double median(std::vector<double> values) {
 
 /// What a task got from other devices.
 struct TimingModel::Arrival {
-    double data = 0.0;   ///< when the last input from another device was made
-    double ready = 0.0;  ///< when it has arrived, as far as is known
+    double data = 0.0;     ///< when the last input from another device was made
+    double ready = 0.0;    ///< when it has arrived, as far as is known
+    double copying = 0.0;  ///< of that, what the copy itself takes
     int from = -1;
 };
 
@@ -36,11 +40,11 @@ struct TimingModel::Exchanges {
 TimingModel::TimingModel(std::size_t kinds, std::size_t devices)
     : devices_(devices),
       costs_(static_cast<std::uint32_t>(kinds), static_cast<std::uint32_t>(devices)),
-      latency_(devices * devices, kFirstLatency),
-      unseen_(latency_.size(), kOldFrames) {}
+      links_(devices * devices, {kFirstLatency, std::numeric_limits<double>::infinity()}),
+      unseen_(links_.size(), kOldFrames) {}
 
 void TimingModel::set_latency(int from, int to, double seconds) {
-    latency_[index(from, to)] = seconds;
+    links_[index(from, to)].latency = seconds;
     unseen_[index(from, to)] = kOldFrames;
 }
 
@@ -51,8 +55,9 @@ void TimingModel::inherit(const TimingModel& other, const std::vector<int>& numb
             costs_.restore(kind, static_cast<std::uint32_t>(d), other.costs_.fit(kind, theirs));
         }
         for (std::size_t to = 0; to < numbers.size(); ++to) {
-            set_latency(static_cast<int>(d), static_cast<int>(to),
-                        other.latency(numbers[d], numbers[to]));
+            const Link& known = other.link(numbers[d], numbers[to]);
+            links_[index(static_cast<int>(d), static_cast<int>(to))] = known;
+            unseen_[index(static_cast<int>(d), static_cast<int>(to))] = kOldFrames;
         }
     }
 }
@@ -79,8 +84,9 @@ std::vector<TimingModel::Arrival> TimingModel::find_arrivals(const Step& step,
         const int q = device_of(d.to);
         if (p == q) return;
         Arrival& arrival = arrivals[at(instance, d.to)];
-        if (end[from] + latency(p, q) <= arrival.ready) return;
-        arrival = {end[from], end[from] + latency(p, q), p};
+        const double copying = d.bytes / link(p, q).bandwidth;
+        const double ready = end[from] + latency(p, q) + copying;
+        if (ready > arrival.ready) arrival = {end[from], ready, copying, p};
     };
     for (int i = 0; i < instances; ++i) {
         for (const Dependency& d : step.dependencies()) note(i, d, at(i, d.from));
@@ -98,7 +104,7 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
                                        const RunTimes& times, int instances) {
     std::vector<double> mean(step.tasks().size(), 0.0);
     const auto arrivals = find_arrivals(step, plan, times, instances);
-    std::vector<Exchanges> exchanges(latency_.size());
+    std::vector<Exchanges> exchanges(links_.size());
     for (std::size_t device = 0; device < times.tasks.size(); ++device) {
         double free = times.start;
         for (const TaskTime& time : times.tasks[device]) {
@@ -108,7 +114,8 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
             const bool waited = arrival.from >= 0 && arrival.data > free;
             if (arrival.from >= 0) {
                 Exchanges& seen = exchanges[index(arrival.from, static_cast<int>(device))];
-                (waited ? seen.waited : seen.hidden).push_back(time.start - arrival.data);
+                (waited ? seen.waited : seen.hidden)
+                    .push_back(time.start - arrival.data - arrival.copying);
             }
             const double could_start =
                 waited ? time.start : std::min(time.start, std::max(free, arrival.ready));
@@ -123,6 +130,7 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
     }
     costs_.refit();
     learn_latencies(exchanges);
+    learn_bandwidths(times.copies);
     return mean;
 }
 
@@ -131,7 +139,7 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
 void TimingModel::learn_latencies(const std::vector<Exchanges>& exchanges) {
     for (std::size_t link = 0; link < exchanges.size(); ++link) {
         const auto& [waited, hidden] = exchanges[link];
-        double& latency = latency_[link];
+        double& latency = links_[link].latency;
         unseen_[link] = std::min(unseen_[link] + 1, kOldFrames);
         if (!waited.empty()) {
             const double weight = unseen_[link] == kOldFrames ? 1.0 : 0.3;
@@ -141,6 +149,23 @@ void TimingModel::learn_latencies(const std::vector<Exchanges>& exchanges) {
         } else if (!hidden.empty()) {
             latency = std::max(kShortestLatency, kFading * std::min(latency, median(hidden)));
         }
+    }
+}
+
+/// By the rate of all long copies of the frame together.
+void TimingModel::learn_bandwidths(const std::vector<CopyRecord>& copies) {
+    constexpr double kWeight = 0.3;
+    std::vector<double> bytes(links_.size(), 0.0), seconds(links_.size(), 0.0);
+    for (const CopyRecord& copy : copies) {
+        if (copy.bytes < kLongCopy) continue;
+        bytes[index(copy.from, copy.to)] += static_cast<double>(copy.bytes);
+        seconds[index(copy.from, copy.to)] += copy.end - copy.start;
+    }
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        if (!(seconds[i] > 0.0)) continue;
+        const double per_byte = seconds[i] / bytes[i];
+        const double known = 1.0 / links_[i].bandwidth;  // 0: not yet
+        links_[i].bandwidth = 1.0 / (known > 0.0 ? known + kWeight * (per_byte - known) : per_byte);
     }
 }
 

@@ -8,6 +8,13 @@
 
 namespace weft {
 
+/// The way from one device to another: from the end of a task to the start of one that waits for
+/// it pass latency + bytes / bandwidth.
+struct Link {
+    double latency = 0.0;    ///< [s]
+    double bandwidth = 0.0;  ///< [bytes/s]; infinite where nothing is copied
+};
+
 /// What tasks take on each device, and what passes between the end of a task on one device and the
 /// start of one that waits for it on another: learnt from all frames so far. Seconds.
 class TimingModel {
@@ -18,7 +25,8 @@ public:
         return costs_.predict(static_cast<std::uint32_t>(task.body->kind),
                               static_cast<std::uint32_t>(device), static_cast<double>(task.items));
     }
-    double latency(int from, int to) const { return latency_[index(from, to)]; }
+    double latency(int from, int to) const { return links_[index(from, to)].latency; }
+    const Link& link(int from, int to) const { return links_[index(from, to)]; }
     /// What is known from elsewhere, and is replaced as soon as it is measured here.
     void set_latency(int from, int to, double seconds);
     /// Takes over what another model knows of its devices `numbers`, in this order.
@@ -42,11 +50,12 @@ private:
     std::vector<Arrival> find_arrivals(const Step& step, const scheduler::Plan& plan,
                                        const RunTimes& times, int instances) const;
     void learn_latencies(const std::vector<Exchanges>& exchanges);
+    void learn_bandwidths(const std::vector<CopyRecord>& copies);
 
     std::size_t devices_;
     scheduler::CostModel costs_;
-    std::vector<double> latency_;  ///< [from][to]
-    std::vector<int> unseen_;      ///< [from][to] frames since it was measured
+    std::vector<Link> links_;  ///< [from][to]
+    std::vector<int> unseen_;  ///< [from][to] frames since its latency was measured
 };
 
 }  // namespace weft

@@ -49,6 +49,7 @@ void run(bool is_right, bool per_colour) {
     step.seal();
     scheduler::Plan plan;
     plan.placements = {{0.0, 1.0, 0}};
+    plan.order_by_start(1);
 
     DeviceOptions options;
     options.opencl_lanes = 1;

@@ -74,6 +74,7 @@ void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& d
         plan.placements.push_back({static_cast<double>(c), static_cast<double>(c + 1), 0});
     }
     step.seal();
+    plan.order_by_start(1);
 
     Executor executor({&device}, pointers);
     executor.run(step, plan, 1, instance);

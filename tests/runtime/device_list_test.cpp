@@ -94,6 +94,32 @@ TEST(DeviceList, KeepsItsOrder) {
     EXPECT_EQ(devices[1]->info().kind, "tbb");
 }
 
+TEST(DeviceList, TeamsShareTheCores) {
+    const int cores = static_cast<int>(usable_cores().size());
+    const auto devices = open_devices("cpu/1|cpu");
+    ASSERT_EQ(devices.size(), 2U);
+    EXPECT_EQ(devices[0]->info().team, 0);
+    EXPECT_EQ(devices[0]->info().units, 1);
+    EXPECT_EQ(devices[1]->info().team, 1);
+    EXPECT_EQ(devices[1]->info().units, cores);
+    EXPECT_NE(error_of("cpu|"), "");
+    EXPECT_NE(error_of("cpu|cpu/9999"), "");
+    EXPECT_NO_THROW(check_device_list("cpu/1+opencl:0/1|cpu"));
+    EXPECT_THROW(check_device_list("cpu||cpu"), UserError);
+}
+
+/// TBB on all cores is among what `hybrid` may choose, so it is never slower.
+TEST(DeviceList, HybridHasTheWholeCpuWhereOpenClIsTheCpu) {
+    if (opencl_devices().empty() || usable_cores().size() < 2) GTEST_SKIP();
+    if (!std::ranges::all_of(opencl_devices(), &OpenClDeviceSummary::is_cpu)) GTEST_SKIP();
+    const auto devices = open_devices("hybrid");
+    const auto is_whole = [](const auto& device) {
+        return device->info().kind == "tbb" &&
+               device->info().units == static_cast<int>(usable_cores().size());
+    };
+    EXPECT_EQ(std::ranges::count_if(devices, is_whole), 1);
+}
+
 TEST(DeviceList, EveryAvailableDeviceOpens) {
     for (const std::string& name : available_devices()) {
         EXPECT_EQ(open_devices(name).size(), 1U) << name;

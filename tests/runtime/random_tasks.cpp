@@ -217,6 +217,7 @@ scheduler::Plan random_plan(const Step& step, int device_count, Random& random) 
             start, start + 1.0,
             static_cast<scheduler::ProcessorId>(random.integer(0, device_count - 1))};
     }
+    plan.order_by_start(static_cast<scheduler::ProcessorId>(device_count));
     return plan;
 }
 

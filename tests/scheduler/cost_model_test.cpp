@@ -246,7 +246,7 @@ TEST(ProbePolicy, BoundsThePrice) {
         EXPECT_FALSE(probes.due(0, 0.0));
     }
     EXPECT_GT(spent, 0.5);
-    EXPECT_LE(spent, 0.01 * 1000 * 0.1);
+    EXPECT_LE(spent, 0.01 * 1000 * 0.1 + 0.05) << "more than one is never paid ahead";
 }
 
 TEST(PlanChoice, NoiseDoesNotFlipPlans) {

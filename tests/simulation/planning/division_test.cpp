@@ -52,7 +52,9 @@ TEST(Division, ProportionalIsWithinAStripOfTheShares) {
 
 TEST(Division, NeighboursAreOneStripAwayBothWays) {
     for (const Division& division : {Division{{4, 6}}, Division{{0, 10}}, Division{{1, 0, 5}}}) {
-        for (const Division& neighbour : division.neighbours()) {
+        std::vector<int> all(division.strips.size());
+        std::iota(all.begin(), all.end(), 0);
+        for (const Division& neighbour : division.neighbours(all)) {
             EXPECT_EQ(sum(neighbour), sum(division));
             int moved = 0;
             for (std::size_t d = 0; d < division.strips.size(); ++d) {
@@ -60,13 +62,14 @@ TEST(Division, NeighboursAreOneStripAwayBothWays) {
                 moved += std::abs(neighbour.strips[d] - division.strips[d]);
             }
             EXPECT_EQ(moved, 2);
-            const auto back = neighbour.neighbours();
+            const auto back = neighbour.neighbours(all);
             EXPECT_NE(std::find(back.begin(), back.end(), division), back.end());
         }
     }
     EXPECT_EQ((Division{{1, 6, 3}}.distance(Division{{4, 4, 2}})), 3);
-    EXPECT_EQ((Division{{4, 6}}.neighbours().size()), 2U);
-    EXPECT_EQ((Division{{0, 10}}.neighbours().size()), 1U);
+    const std::vector<int> two{0, 1};
+    EXPECT_EQ((Division{{4, 6}}.neighbours(two).size()), 2U);
+    EXPECT_EQ((Division{{0, 10}}.neighbours(two).size()), 1U);
 }
 
 }  // namespace

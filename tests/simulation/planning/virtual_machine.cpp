@@ -1,15 +1,18 @@
 #include "tests/simulation/planning/virtual_machine.h"
 
 #include <algorithm>
-#include <numeric>
 
+#include "runtime/submission_order.h"
 #include "runtime/tbb/cpu_device.h"
 
 namespace weft::test {
 
-VirtualMachine::VirtualMachine(std::vector<Speed> given, double given_latency)
-    : speeds(std::move(given)), latency(given_latency) {
-    for (std::size_t d = 0; d < speeds.size(); ++d) devices_.push_back(make_cpu_device(1, {}));
+VirtualMachine::VirtualMachine(std::vector<Speed> given, double given_latency,
+                               const std::vector<int>& teams)
+    : speeds(std::move(given)), latency(given_latency), asleep_(speeds.size(), true) {
+    for (std::size_t d = 0; d < speeds.size(); ++d) {
+        devices_.push_back(make_cpu_device(1, {}, 8, teams.empty() ? 0 : teams[d]));
+    }
 }
 
 std::vector<Device*> VirtualMachine::devices() const {
@@ -21,11 +24,7 @@ std::vector<Device*> VirtualMachine::devices() const {
 RunTimes VirtualMachine::run(const FramePlan& plan, int instances) {
     const auto& tasks = plan.step->tasks();
     const auto& placements = plan.plan.placements;
-    std::vector<std::size_t> order(tasks.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return placements[a].start < placements[b].start;
-    });
+    const std::vector<int> order = submission_order(*plan.step, plan.plan);
 
     RunTimes times;
     times.start = clock_;
@@ -34,24 +33,25 @@ RunTimes VirtualMachine::run(const FramePlan& plan, int instances) {
     std::vector<double> previous(tasks.size(), clock_ - 1.0);
     for (int instance = 0; instance < instances; ++instance) {
         std::vector<double> end(tasks.size());
-        for (const std::size_t t : order) {
+        for (const int task : order) {
+            const auto t = static_cast<std::size_t>(task);
             const std::size_t device = placements[t].processor;
+            const double drowsy = asleep_[device] ? speeds[device].waking : 1.0;
             double start = free[device];
             const auto wait = [&](const Dependency& d, const std::vector<double>& ends) {
-                if (d.to != static_cast<int>(t)) return;
+                if (d.to != task) return;
                 const auto from = static_cast<std::size_t>(d.from);
                 const bool same = placements[from].processor == device;
-                start = std::max(start, ends[from] + (same ? 0.0 : latency));
+                start = std::max(start, ends[from] + (same ? 0.0 : drowsy * latency));
             };
             for (const Dependency& d : plan.step->dependencies()) wait(d, end);
             for (const Dependency& d : plan.step->carried()) wait(d, previous);
-            const Speed& speed = speeds[device];
-            end[t] = free[device] =
-                start + speed.fixed + speed.per_item * static_cast<double>(tasks[t].items);
-            times.tasks[device].push_back({instance, static_cast<int>(t), start, end[t]});
+            end[t] = free[device] = start + drowsy * speeds[device](tasks[t]);
+            times.tasks[device].push_back({instance, task, start, end[t]});
         }
         previous = end;
     }
+    for (std::size_t d = 0; d < speeds.size(); ++d) asleep_[d] = times.tasks[d].empty();
     clock_ = times.end = *std::max_element(free.begin(), free.end());
     clock_ += 1e-3;
     return times;

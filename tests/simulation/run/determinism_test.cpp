@@ -152,7 +152,8 @@ TEST_P(OpenClDeterminism, OneSubstepOfOneLane) {
 }
 
 TEST_P(OpenClDeterminism, EveryMixtureThatAPlannerMakes) {
-    for (const PlanKind plan : {PlanKind::kAuto, PlanKind::kExact, PlanKind::kSingle}) {
+    for (const PlanKind plan :
+         {PlanKind::kAuto, PlanKind::kExact, PlanKind::kPlaced, PlanKind::kSingle}) {
         EXPECT_EQ(hash_on("cpu/1+opencl:0/1", {}, plan), GetParam().hash);
     }
     EXPECT_EQ(hash_on("opencl:0/1+cpu/1", {}, PlanKind::kExact), GetParam().hash);
@@ -162,6 +163,7 @@ TEST_P(OpenClDeterminism, EveryMixtureThatAPlannerMakes) {
         DeviceOptions options;
         options.memory = memory;
         EXPECT_EQ(hash_on("cpu/1+opencl:0/1", options, PlanKind::kExact), GetParam().hash);
+        EXPECT_EQ(hash_on("cpu/1+opencl:0/1", options, PlanKind::kPlaced), GetParam().hash);
     }
 }
 

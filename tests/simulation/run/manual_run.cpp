@@ -105,6 +105,7 @@ scheduler::Plan plan_in_order(const Step& step, const Division& division) {
         plan.placements.push_back(
             {start, start + 1.0, static_cast<scheduler::ProcessorId>(device)});
     }
+    plan.order_by_start(static_cast<scheduler::ProcessorId>(division.strips.size()));
     return plan;
 }
 

@@ -1,0 +1,55 @@
+#include "scheduler/trials.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::scheduler {
+
+namespace {
+/// Frames that a trial takes at least: one to wake up, and one that says whether to go on.
+constexpr double kShortest = 2.0;
+}  // namespace
+
+std::optional<std::uint32_t> Trials::next(std::uint32_t chosen, std::span<const double> expected) {
+    if (running_ && (alternative_ == chosen || !std::isfinite(expected[alternative_]))) {
+        running_ = false;  // nothing is left to find out
+    }
+    for (std::uint32_t a = 0; a < expected.size() && !running_; ++a) {
+        if (a == chosen || !std::isfinite(expected[a])) continue;
+        const double price = kShortest * std::max(0.0, expected[a] - expected[chosen]);
+        if (probes_.due(a, price)) begin(a);
+    }
+    return running_ ? std::optional(alternative_) : std::nullopt;
+}
+
+void Trials::begin(std::uint32_t alternative) {
+    running_ = true;
+    alternative_ = alternative;
+    frame_ = 0;
+    charge_ = 0.0;
+    ratios_.clear();
+}
+
+bool Trials::is_over(double ratio) const {
+    return frame_ >= settings_.frames || (!ratios_.empty() && ratio > settings_.hopeless);
+}
+
+double Trials::median_ratio() {
+    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
+    std::ranges::nth_element(ratios_, middle);
+    return *middle;
+}
+
+std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
+    probes_.end_frame(seconds);
+    if (!running_) return std::nullopt;
+    charge_ += seconds - to_beat;
+    if (!waking()) ratios_.push_back(seconds / to_beat);
+    ++frame_;
+    if (!is_over(seconds / to_beat)) return std::nullopt;
+    running_ = false;
+    probes_.paid(alternative_, std::max(0.0, charge_));
+    return median_ratio() < 1.0 ? std::optional(alternative_) : std::nullopt;
+}
+
+}  // namespace weft::scheduler

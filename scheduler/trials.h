@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scheduler/probing.h"
+
+namespace weft::scheduler {
+
+struct TrialSettings {
+    std::uint32_t frames = 4;  ///< of a trial
+    /// Of these, at the beginning, tell nothing: what was asleep wakes up.
+    std::uint32_t waking = 1;
+    /// A trial ends at the first frame behind these that takes so many times what it has to beat.
+    double hopeless = 1.5;
+};
+
+/// Tries what the plans leave out, in earnest: a trial is several frames long, and judged by the
+/// later ones. Threads that have slept, clocks that have gone down and caches that are cold make
+/// the first frame slow, so who is tried for one frame only is never seen awake. When to try is
+/// ProbePolicy's decision; a trial is charged with what it took longer.
+class Trials {
+public:
+    explicit Trials(std::uint32_t alternatives, const ProbeSettings& probes = {},
+                    const TrialSettings& settings = {})
+        : settings_(settings), probes_(alternatives, probes) {}
+
+    /// The alternative to try in the next frame, if any. Call once per frame.
+    /// chosen    what would be done otherwise
+    /// expected  [alternative] seconds of a frame; infinite where there is nothing to try
+    std::optional<std::uint32_t> next(std::uint32_t chosen, std::span<const double> expected);
+
+    /// Whether the frame of the last next() belongs to a trial.
+    bool running() const { return running_; }
+    /// Whether it is one of those that tell nothing.
+    bool waking() const { return running_ && frame_ < settings_.waking; }
+
+    /// All that this alternative needs has been in use in this frame: it needs no trial.
+    void used(std::uint32_t alternative) { probes_.used(alternative); }
+
+    /// Ends a frame. Gives the alternative whose trial has just ended well: its frames, but for the
+    /// first, were faster than what the chosen one was expected to take.
+    /// seconds, to_beat  that the frame took, and that the chosen alternative would have taken
+    std::optional<std::uint32_t> end_frame(double seconds, double to_beat);
+
+private:
+    void begin(std::uint32_t alternative);
+    bool is_over(double ratio) const;
+    double median_ratio();
+
+    TrialSettings settings_;
+    ProbePolicy probes_;
+    bool running_ = false;
+    std::uint32_t alternative_ = 0;
+    std::uint32_t frame_ = 0;     ///< of the trial
+    double charge_ = 0.0;         ///< seconds that it took longer so far
+    std::vector<double> ratios_;  ///< of frames that tell: seconds / to_beat
+};
+
+}  // namespace weft::scheduler
