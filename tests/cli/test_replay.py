@@ -56,6 +56,23 @@ def test_planner_that_changes_its_mind(tmp_path):
     expect_equal(trace)
 
 
+@pytest.mark.parametrize("memory", ["host", "discrete"])
+def test_tasks_placed_one_by_one(single, tmp_path, memory):
+    trace = record(tmp_path, *two_devices()[:2], "--plan", "placed", "--memory", memory)
+    with h5py.File(trace) as file, h5py.File(single) as other:
+        assert file.attrs["state_hash"] == other.attrs["state_hash"]
+        parts = file["divisions"]["strips"][file["divisions"]["graph"] == 0]
+        assert len(parts) >= 2 and sum(parts) == weft_json("inspect", "scene.toml",
+                                                           cwd=tmp_path)["strips"]
+        assert (file["plan"]["home"] == file["plan"]["device"]).all()
+    expect_equal(trace)
+    expect_equal(trace, "--device", "cpu/1")
+    assert weft("trace", "gantt", trace, "--frame", "2", "--out",
+                tmp_path / "schedule.svg").returncode == 0
+    assert weft_json("plan", trace, "--frame", "2", "--pinned", "--algorithm",
+                     "in-order")["makespan"] > 0
+
+
 def test_command_line_counts(tmp_path):
     trace = record(tmp_path, "--device", "cpu/1", "--frames", 4, "--substeps", 3, "--iterations", 5,
                    "--set", "cloth.density=0.5", "--set", "scene.size=900")

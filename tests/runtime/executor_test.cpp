@@ -12,6 +12,7 @@
 
 #include "runtime/device_list.h"
 #include "runtime/opencl/opencl_device.h"
+#include "runtime/submission_order.h"
 #include "runtime/tbb/cpu_device.h"
 #include "tests/runtime/random_tasks.h"
 
@@ -302,6 +303,31 @@ Devices host_and_discrete() {
 
 INSTANTIATE_TEST_SUITE_P(Machines, Copies,
                          testing::Values(&one_discrete, &host_and_discrete, &four_devices));
+
+TEST(SubmissionOrder, KeepsEachDevicesOrderAndWhatTasksWaitFor) {
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        Random random(seed);
+        RandomTasks tasks;
+        const Step step = tasks.make_step(random, 25);
+        scheduler::Plan plan = random_plan(step, 3, random);
+        // The order counts, not the forecast.
+        for (scheduler::Placement& placement : plan.placements) placement.start = 0.0;
+        const std::vector<int> order = submission_order(step, plan);
+        ASSERT_EQ(order.size(), step.tasks().size());
+        std::vector<std::size_t> place(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i)
+            place[static_cast<std::size_t>(order[i])] = i;
+        for (const Dependency& d : step.dependencies()) {
+            EXPECT_LT(place[static_cast<std::size_t>(d.from)],
+                      place[static_cast<std::size_t>(d.to)]);
+        }
+        for (scheduler::ProcessorId p = 0; p < 3; ++p) {
+            const auto row = plan.tasks_on(p);
+            for (std::size_t i = 1; i < row.size(); ++i)
+                EXPECT_LT(place[row[i - 1]], place[row[i]]);
+        }
+    }
+}
 
 }  // namespace
 }  // namespace weft::test

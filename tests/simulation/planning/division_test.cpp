@@ -1,9 +1,10 @@
-#include "simulation/planning/division.h"
+#include "simulation/planning/division_search.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 
 namespace weft::test {
@@ -70,6 +71,47 @@ TEST(Division, NeighboursAreOneStripAwayBothWays) {
     const std::vector<int> two{0, 1};
     EXPECT_EQ((Division{{4, 6}}.neighbours(two).size()), 2U);
     EXPECT_EQ((Division{{0, 10}}.neighbours(two).size()), 1U);
+}
+
+/// Devices that take their strips one after the other, and a price for each that takes part.
+TEST(DivisionSearch, FindsTheBestDivision) {
+    constexpr int kStrips = 24;
+    const std::vector<std::vector<double>> all_speeds{
+        {1.0, 1.0}, {1.0, 3.0}, {5.0, 1.0, 2.0}, {1.0, 50.0}, {2.0, 0.0, 1.0}};
+    for (const std::vector<double>& speed : all_speeds) {
+        const auto devices = static_cast<int>(speed.size());
+        std::vector<int> all(speed.size());
+        std::iota(all.begin(), all.end(), 0);
+        const auto time = [&](const Division& division) {
+            double longest = 0.0;
+            for (std::size_t d = 0; d < speed.size(); ++d) {
+                if (division.strips[d] == 0) continue;
+                longest = std::max(longest, division.strips[d] / speed[d]);
+            }
+            return longest + 0.5 * static_cast<double>(division.devices().size());
+        };
+        const DivisionSearch search(devices, kStrips, all, time);
+        double best = std::numeric_limits<double>::infinity();
+        for (int first = 0; first <= kStrips; ++first) {
+            for (int second = 0; first + second <= kStrips; ++second) {
+                Division division{{first, second}};
+                if (devices == 3) division.strips.push_back(kStrips - first - second);
+                if (sum(division) == kStrips) best = std::min(best, time(division));
+            }
+        }
+        EXPECT_LE(time(search.best()), best * (1.0 + 1e-9)) << devices << " devices";
+        EXPECT_EQ(sum(search.best()), kStrips);
+    }
+}
+
+TEST(DivisionSearch, GivesNothingToWhoCannot) {
+    const auto time = [](const Division& division) {
+        return division.strips[1] > 0 ? std::numeric_limits<double>::infinity()
+                                      : 1.0 * std::ranges::max(division.strips);
+    };
+    const DivisionSearch search(3, 10, {0, 1, 2}, time);
+    EXPECT_EQ(search.by_speed().strips, (std::vector{5, 0, 5}));
+    EXPECT_EQ(search.best().strips, (std::vector{5, 0, 5}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
 
 #include "runtime/trace/recorded_graph.h"
@@ -97,6 +98,28 @@ TEST_F(PlanLogTest, ReproducesPlansOfThreeDevices) {
 TEST_F(PlanLogTest, ReproducesPlansOfOneDevice) {
     expect_reproduced({{2e-6, 2e-9}}, PlanKind::kSingle, {0}, 1);
     EXPECT_EQ(graphs_.size(), 1U);
+}
+
+/// Its record says where each task is, and how the strips were cut for it.
+TEST_F(PlanLogTest, HoldsPlacements) {
+    VirtualMachine machine({{2e-6, 2e-9}, {2e-6, 3e-9}}, 20e-6);
+    FramePlanner planner(*solver_, model_.strips.count(), machine.devices(), PlanKind::kPlaced);
+    for (const FramePlan& plan : planner.calibration()) {
+        planner.learn(plan, machine.run(plan, 2), 2);
+    }
+    const FramePlan plan = planner.next();
+    ASSERT_TRUE(plan.is_placed());
+    FrameRecord frame;
+    PlanLog(3).record(plan, planner.timing().costs(), {0, 2}, frame);
+    EXPECT_EQ(std::accumulate(frame.graph->strips.begin(), frame.graph->strips.end(), 0U),
+              static_cast<std::uint32_t>(model_.strips.count()));
+    ASSERT_EQ(frame.plan.size(), plan.step->tasks().size());
+    for (const PlanRecord& task : frame.plan) {
+        const auto device = plan.plan.placements[task.task].processor;
+        EXPECT_EQ(task.device, device == 0 ? 0U : 2U);
+        EXPECT_EQ(task.home, task.device);
+        EXPECT_EQ(plan.plan.tasks_on(device)[task.order], task.task);
+    }
 }
 
 TEST_F(PlanLogTest, KeepsTheNumbersOfDevicesWhenOneIsLost) {
