@@ -14,7 +14,7 @@ namespace {
 struct Finding {
     int substep = 0;
     const Task* task = nullptr;
-    BadState bad;
+    Alarm alarm;
 };
 
 scheduler::Plan plan_of_one_task() {
@@ -24,39 +24,75 @@ scheduler::Plan plan_of_one_task() {
     return plan;
 }
 
-/// The first task that left something bad, or the last task of the substep that did.
-std::optional<Finding> find(const Model& model, const Step& step, Executor& executor) {
-    for (int substep = 0; substep < model.scene.substeps; ++substep) {
-        for (const Task& task : step.tasks()) {
+class Search {
+public:
+    Search(int frame, const SimulationState& start, const Watch& watch, Model& model,
+           Solver& solver)
+        : start_(start),
+          watch_(watch),
+          model_(model),
+          begin_(frame * model.scene.dt),
+          device_(make_cpu_device(1, {})),
+          bodies_(solver.bodies()),
+          executor_({device_.get()}, bodies_),
+          step_(solver.make_step(Partition::whole(model.strips.count()))) {}
+
+    /// The first task that left something bad, or the last task of the substep that did.
+    std::optional<Finding> find() {
+        for (int substep = 0; substep < model_.scene.substeps; ++substep) {
+            if (auto finding = find_in(substep)) return finding;
+        }
+        return std::nullopt;
+    }
+
+private:
+    std::optional<Finding> find_in(int substep) {
+        for (const Task& task : step_.tasks()) {
             Step one;
             one.add(task);
-            executor.run(one, plan_of_one_task(), 1, substep);
-            if (auto bad = find_non_finite(model)) return Finding{substep, &task, std::move(*bad)};
+            executor_.run(one, plan_of_one_task(), 1, substep);
+            if (auto bad = find_non_finite(model_)) {
+                return Finding{substep, &task, {Alarm::Kind::kNoState, bad->what, bad->vertex}};
+            }
         }
         // Only a substep's end is a state: before, positions may be far off for good reasons.
-        if (auto bad = find_bad_state(model))
-            return Finding{substep, &step.tasks().back(), std::move(*bad)};
+        const double end = begin_ + (substep + 1) * model_.h;
+        auto look = watch_.look(model_, start_.positions, begin_, end);
+        if (!look.alarm || look.alarm->kind == Alarm::Kind::kDoubt) return std::nullopt;
+        return Finding{substep, &step_.tasks().back(), std::move(*look.alarm)};
     }
-    return std::nullopt;
+
+    const SimulationState& start_;
+    const Watch& watch_;
+    Model& model_;
+    double begin_;  ///< of the frame [s]
+    std::unique_ptr<Device> device_;
+    std::vector<const TaskBody*> bodies_;
+    Executor executor_;
+    Step step_;
+};
+
+constexpr const char* kAdvice =
+    "more substeps or iterations, or another solver, may help (docs/stability.md)";
+
+std::string text_of(int frame, const Finding& finding, const Model& model) {
+    const std::string where = fmt::format("frame {}, substep {}", frame, finding.substep);
+    if (!finding.alarm.vertex) return fmt::format("{}: {}", where, finding.alarm.what);
+    return fmt::format("{}, seen after task '{}', iteration {}: {}: {}", where,
+                       finding.task->body->name, finding.task->iteration,
+                       vertex_name(model, *finding.alarm.vertex), finding.alarm.what);
 }
 
 }  // namespace
 
-void diagnose_frame(int frame, const SimulationState& start, Model& model, Solver& solver) {
+void diagnose_frame(int frame, const SimulationState& start, const Watch& watch, Model& model,
+                    Solver& solver) {
     start.put(model, solver);
-    const auto device = make_cpu_device(1, {});
-    const auto bodies = solver.bodies();
-    Executor executor({device.get()}, bodies);
-    const Step step = solver.make_step(Partition::whole(model.strips.count()));
-    const auto finding = find(model, step, executor);
+    const auto finding = Search(frame, start, watch, model, solver).find();
     start.put(model, solver);
-    if (!finding) throw RunError(fmt::format("the simulation diverged in frame {}", frame));
-    throw RunError(
-        fmt::format("the simulation diverged in frame {}, substep {}, seen after task '{}', "
-                    "iteration {}: {}: "
-                    "{}; smaller time steps (more substeps) or softer materials may help",
-                    frame, finding->substep, finding->task->body->name, finding->task->iteration,
-                    vertex_name(model, finding->bad.vertex), finding->bad.what));
+    const std::string where =
+        finding ? text_of(frame, *finding, model) : fmt::format("frame {}", frame);
+    throw RunError(fmt::format("the simulation diverged in {}; {}", where, kAdvice));
 }
 
 }  // namespace weft

@@ -2,13 +2,15 @@
 
 #include "simulation/solver/solver.h"
 #include "simulation/state.h"
+#include "simulation/watch.h"
 
 namespace weft {
 
-/// Runs a frame that went bad again from its start, on one core, task by task, to name the task and
-/// the vertex: the bits are the same on every device, so this finds what happened there. The host's
-/// state is that of the frame's start again when it throws its RunError.
-[[noreturn]] void diagnose_frame(int frame, const SimulationState& start, Model& model,
-                                 Solver& solver);
+/// Runs a frame that went bad again from its start, on one core, task by task, to name the substep,
+/// and the task and the vertex where these can be named: the bits are the same on every device, so
+/// this finds what happened there. The host's state is that of the frame's start again when it
+/// throws its RunError.
+[[noreturn]] void diagnose_frame(int frame, const SimulationState& start, const Watch& watch,
+                                 Model& model, Solver& solver);
 
 }  // namespace weft

@@ -15,6 +15,9 @@ struct Energies {
     double kinetic = 0.0;
     double gravity = 0.0;          ///< potential, zero at the origin
     std::vector<double> elements;  ///< in the order of energy_names()
+
+    double strain() const;  ///< of all elements
+    double total() const { return kinetic + gravity + strain(); }
 };
 
 /// Names of the element energies that the model has.
@@ -24,11 +27,14 @@ std::vector<std::string> energy_names(const Model& model);
 Energies measure_energies(const Model& model, std::span<const float4> positions,
                           std::span<const float4> velocities, double time);
 
-/// The first vertex that is not finite, too fast, or at an overstretched element; by the
-/// bounds of the scene's [guard].
-std::optional<BadState> find_bad_state(const Model& model);
-/// Only whether positions are finite: what can be said in mid-substep.
+/// The first vertex whose position or velocity is not finite.
 std::optional<BadState> find_non_finite(const Model& model);
+/// The first vertex of a finite state that is too fast, or is at an overstretched edge; by the
+/// bounds of the scene's [guard]. strain: the model's
+std::optional<BadState> find_beyond_guard(const Model& model, const Strain& strain);
+
+/// Sum of mass times place of all that moves freely [kg m].
+Vec3 mass_moment(const Model& model, std::span<const float4> positions);
 
 /// "vertex 12 of cloth 'sheet'"
 std::string vertex_name(const Model& model, int vertex);

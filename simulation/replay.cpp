@@ -17,6 +17,7 @@ SimulationOptions without_planning(const SimulationOptions& options) {
     own.devices = options.devices;
     own.device_options = options.device_options;
     own.calibrate = false;
+    own.on_trouble = OnTrouble::kReport;  // the run went on, too
     return own;
 }
 
@@ -48,6 +49,11 @@ void Replay::advance(const FrameRecord& recorded) {
     if (static_cast<int>(recorded.frame) != simulation_.frame()) {
         throw does_not_fit(recorded.frame,
                            fmt::format("frame {} is not in the trace", simulation_.frame()));
+    }
+    if (const auto substeps = static_cast<int>(recorded.substeps);
+        substeps > 0 && substeps != simulation_.model().scene.substeps) {
+        simulation_.set_substeps(substeps);
+        steps_.clear();
     }
     const std::vector<PlanRecord> tasks = tasks_in_order(recorded_, recorded);
     const Step& step = step_for(recorded);

@@ -4,20 +4,48 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 #include "runtime/clock.h"
+#include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/executor.h"
 #include "simulation/diagnosis.h"
-#include "simulation/diagnostics.h"
 #include "simulation/frame_recorder.h"
 #include "simulation/planning/frame_planner.h"
 #include "simulation/planning/saved_costs.h"
 #include "simulation/run_description.h"
 #include "simulation/start_checks.h"
+#include "simulation/watch.h"
 
 namespace weft {
+
+namespace {
+
+constexpr int kMostRefinement = 16;  ///< times the substeps that a run began with
+constexpr std::size_t kMostTroubles = 10;
+
+/// For what is done between frames: as many as the devices have, of the host's.
+int host_threads(const std::vector<std::unique_ptr<Device>>& devices) {
+    int units = 0;
+    for (const auto& device : devices) units += device->info().units;
+    return std::clamp(units, 1, static_cast<int>(std::max<std::size_t>(usable_cores().size(), 1)));
+}
+
+void record(const Watch::Look& look, FrameRecord& frame) {
+    const EnergyAccount::Entry& entry = look.entry;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    frame.strain_rms = look.strain.rms;
+    frame.strain_max = look.strain.most;
+    frame.kinetic_energy = entry.energies.kinetic;
+    frame.gravity_energy = entry.energies.gravity;
+    frame.energies = entry.energies.elements;
+    frame.work = entry.is_known ? entry.outside.work : unknown;
+    frame.dissipated = entry.is_known ? entry.dissipated() : unknown;
+}
+
+}  // namespace
 
 Simulation::Simulation(const Scene& scene, const SimulationOptions& options, Warnings& warnings)
     : Simulation(scene, open_devices(options.devices, options.device_options), options, warnings) {}
@@ -27,9 +55,12 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
     : options_(options),
       devices_(std::move(devices)),
       active_(devices_.size()),
-      model_(std::make_unique<Model>(scene, warnings)),
+      model_(std::make_shared<Model>(scene, warnings)),
       solver_(options.make_solver(*model_)),
-      recorder_(std::make_unique<FrameRecorder>(devices_.size())) {
+      recorder_(std::make_unique<FrameRecorder>(devices_.size())),
+      watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
+                                     host_threads(devices_))),
+      first_substeps_(model_->scene.substeps) {
     std::iota(active_.begin(), active_.end(), 0);
     warn_of_start(*model_, warnings);
     place();
@@ -52,12 +83,43 @@ void Simulation::restore(const SimulationState& state) {
     for (BufferStorage* buffer : solver_->state()) executor_->host_wrote(*buffer);
 }
 
-Checkpoint Simulation::checkpoint() const { return snapshot()->checkpoint(frame_); }
+Checkpoint Simulation::checkpoint() const {
+    Checkpoint checkpoint = snapshot()->checkpoint(frame_);
+    checkpoint.substeps = model_->scene.substeps;
+    checkpoint.account = watch_->account().save();
+    return checkpoint;
+}
 
 void Simulation::resume(const Checkpoint& checkpoint) {
+    if (checkpoint.substeps != model_->scene.substeps) set_substeps(checkpoint.substeps);
     SimulationState state = *snapshot();
     state.take(checkpoint);
     frame_ = checkpoint.frame;
+    place();
+    restore(state);
+    watch_->restart(*model_, time(), checkpoint.account);
+}
+
+/// Everything that knows the length of a step is made anew; devices and costs stay.
+void Simulation::set_substeps(int substeps) {
+    Scene scene = model_->scene;
+    scene.substeps = substeps;
+    SimulationState state = *snapshot();
+    for (auto& bytes : state.solver) std::fill(bytes.begin(), bytes.end(), std::byte{});
+    Warnings said_already;
+    auto model = std::make_shared<Model>(scene, said_already);
+    for (std::size_t v = 0; v < state.velocities.size(); ++v) {
+        state.velocities[v].w = (*model->velocities)[v].w;  // what damping leaves per substep
+    }
+    auto solver = options_.make_solver(*model);
+    const TimingModel learnt = planner_->timing();
+    model_.swap(model);
+    solver_.swap(solver);
+    open_executor();  // while those that the old one refers to are there
+    std::vector<int> all(active_.size());
+    std::iota(all.begin(), all.end(), 0);
+    planner_->timing().inherit(learnt, all);
+    planner_->balance_mixture();
     place();
     restore(state);
 }
@@ -70,6 +132,7 @@ void Simulation::start_from(int frame, std::span<const float> positions,
     for (auto& bytes : state.solver) std::fill(bytes.begin(), bytes.end(), std::byte{});
     restore(state);
     frame_ = frame;
+    watch_->restart(*model_, time());
 }
 
 void Simulation::place() {
@@ -181,8 +244,8 @@ FrameRecord Simulation::advance(const FrameDetails& details) {
     begin_frame();
     while (true) {
         try {
-            advance_from_start(details, frame);
-            return frame;
+            if (advance_from_start(details, frame)) return frame;
+            end_part(frame, frame.execute_time);
         } catch (const DeviceLost& lost) {
             go_on_without(lost);
             end_part(frame, frame.execute_time);
@@ -253,7 +316,8 @@ bool Simulation::make_room() {
     return grew;
 }
 
-void Simulation::advance_from_start(const FrameDetails& details, FrameRecord& frame) {
+/// False: it has to be done again.
+bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& frame) {
     place();
     end_part(frame, frame.place_time);
     const FramePlan& plan = planner_->next();
@@ -261,8 +325,9 @@ void Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     const int substeps = model_->scene.substeps;
     const RunTimes times = run_frame(*plan.step, plan.plan);
     end_part(frame, frame.execute_time);
-    check();
+    const bool accepted = accepts(frame);
     end_part(frame, frame.check_time);
+    if (!accepted) return false;
     recorder_->sum_up(plan, times, substeps, active_, frame);
     if (details.tasks) {
         recorder_->list(plan, times, planner_->timing().costs(), active_, frame);
@@ -271,23 +336,64 @@ void Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     look_at_load();
     end_part(frame, frame.learn_time);
     ++frame_;
-    if (details.energies) snapshot()->measure_energies(*model_, time(), frame);
     if (details.state_hash) frame.state_hash = hash();
     end_part(frame, frame.measure_time);
+    return true;
 }
 
 void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
     begin_frame();
     place();
     run_frame(step, plan);
-    check();
+    FrameRecord frame;
+    accepts(frame);
     ++frame_;
 }
 
-void Simulation::check() {
-    if (!find_bad_state(*model_)) return;
+/// Looks at the frame that has just run, and writes down what there is to see.
+bool Simulation::accepts(FrameRecord& frame) {
+    const double end = time() + model_->scene.dt;
+    const Watch::Look look = watch_->look(*model_, start_->positions, time(), end);
+    if (look.alarm && !goes_on_with(*look.alarm)) return false;
+    watch_->accept(look, look.alarm.has_value());
+    record(look, frame);
+    frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
+    return true;
+}
+
+bool Simulation::goes_on_with(const Alarm& alarm) {
+    if (options_.on_trouble == OnTrouble::kHalve && halve(alarm)) return false;
+    const bool is_told =
+        alarm.kind == Alarm::Kind::kDoubt ||
+        (alarm.kind == Alarm::Kind::kExplosion && options_.on_trouble == OnTrouble::kReport);
+    if (!is_told) {
+        restore(*start_);
+        diagnose_frame(frame_, *start_, *watch_, *model_, *solver_);
+    }
+    tell(alarm.what +
+         "; the steps are not solved far enough, and what is seen is not believable: "
+         "more substeps or iterations, or another solver, may help "
+         "(docs/stability.md)");
+    return true;
+}
+
+/// Whether the frame is to be done again with steps of half the size.
+bool Simulation::halve(const Alarm& alarm) {
+    const int substeps = 2 * model_->scene.substeps;
+    if (substeps > kMostRefinement * first_substeps_) return false;
     restore(*start_);
-    diagnose_frame(frame_, *start_, *model_, *solver_);
+    set_substeps(substeps);
+    start_ = snapshot();
+    snapshot_.reset();
+    tell(fmt::format("{}; done again, and all that follows, with {} substeps", alarm.what,
+                     substeps));
+    return true;
+}
+
+void Simulation::tell(std::string what) {
+    if (troubles_.size() >= kMostTroubles) return;
+    if (troubles_.size() + 1 == kMostTroubles) what += "; what comes after this is not told";
+    troubles_.push_back({frame_, std::move(what)});
 }
 
 RunDescription Simulation::describe() const { return describe_run(*model_, *solver_, devices_); }

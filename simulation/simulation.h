@@ -24,7 +24,17 @@ class Executor;
 class FramePlanner;
 struct FramePlan;
 class FrameRecorder;
+class Watch;
+struct Alarm;
 struct RunTimes;
+
+/// What is done about a frame that ends in a state that cannot be.
+enum class OnTrouble {
+    kStop,    ///< the run ends with an error; what is only doubtful is told
+    kHalve,   ///< the frame is done again with steps of half the size, and so all that follow
+    kReport,  ///< it is told, and the run goes on while there is a state to go on from
+    kIgnore,  ///< energies are not looked at: for those who measure single steps
+};
 
 struct SimulationOptions {
     std::string devices = "hybrid";
@@ -35,12 +45,12 @@ struct SimulationOptions {
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
+    OnTrouble on_trouble = OnTrouble::kStop;
 };
 
 /// What a frame's record holds besides times, makespans and bytes. Each takes time between frames.
 struct FrameDetails {
     bool tasks = true;  ///< plan, executions, costs, links, transfers
-    bool energies = true;
     bool state_hash = false;
 };
 
@@ -49,6 +59,12 @@ struct LostDevice {
     int device = 0;  ///< its number in Simulation::devices()
     int frame = 0;
     std::string why;
+};
+
+/// A frame whose result is to be doubted, or that was done again with smaller steps.
+struct Trouble {
+    int frame = 0;
+    std::string what;
 };
 
 /// A scene on devices, frame by frame. The results do not depend on the devices or on the plans.
@@ -61,11 +77,11 @@ public:
                const SimulationOptions& options, Warnings& warnings);
     ~Simulation();
 
-    /// Simulates the next frame: plans, runs all substeps, checks the state, and measures what the
-    /// details ask for. The record's end is that of the call, and its parts add up to it. If a
+    /// Simulates the next frame: plans, runs all substeps, looks at the state, and measures what
+    /// the details ask for. The record's end is that of the call, and its parts add up to it. If a
     /// device fails, the frame is done again from its start on the others, with the same result.
-    /// Throws RunError if none is left, or the state went bad; then the state is that of the
-    /// frame's start.
+    /// Throws RunError if none is left, or the state went bad and options.on_trouble does not go
+    /// on; then the state is that of the frame's start.
     FrameRecord advance(const FrameDetails& details = {});
     /// The state between two frames, for those who look at it while the simulation goes on.
     std::shared_ptr<const SimulationState> snapshot() const;
@@ -74,6 +90,8 @@ public:
     double clock() const;
     /// The devices that failed so far.
     const std::vector<LostDevice>& losses() const { return losses_; }
+    /// What was wrong so far, and is no error by options.on_trouble.
+    const std::vector<Trouble>& troubles() const { return troubles_; }
     /// The state between two frames, all of it.
     Checkpoint checkpoint() const;
     /// Goes on from there, with the results of a run that was never interrupted. Throws UserError
@@ -90,10 +108,16 @@ public:
     /// Simulates the next frame by a plan from elsewhere, a replay's. Nothing is planned, learnt or
     /// measured. Throws RunError if a device failed or the state went bad.
     void advance_by(const Step& step, const scheduler::Plan& plan);
+    /// Goes on with so many substeps per frame, from here on. What a solver remembers of earlier
+    /// substeps is forgotten.
+    void set_substeps(int substeps);
     Step make_step(const Division& division) { return solver_->make_step(division.partition()); }
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }
+    /// For those who look at a snapshot while the simulation goes on: the model changes with the
+    /// substeps.
+    std::shared_ptr<const Model> shared_model() const { return model_; }
     const Solver& solver() const { return *solver_; }
     const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
     const FramePlanner& planner() const { return *planner_; }
@@ -119,25 +143,30 @@ private:
     std::vector<Device*> active_devices() const;
     void open_executor();
     bool restore_costs();
-    void advance_from_start(const FrameDetails& details, FrameRecord& frame);
+    bool advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
     bool make_room();
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
-    /// Throws RunError if the state is none.
-    void check();
+    bool accepts(FrameRecord& frame);
+    bool goes_on_with(const Alarm& alarm);
+    bool halve(const Alarm& alarm);
+    void tell(std::string what);
 
     SimulationOptions options_;
     std::vector<std::unique_ptr<Device>> devices_;
     /// Numbers of those that are still there: the executor's and the planner's devices.
     std::vector<int> active_;
     std::vector<LostDevice> losses_;
-    std::unique_ptr<Model> model_;
+    std::vector<Trouble> troubles_;
+    std::shared_ptr<Model> model_;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Executor> executor_;
     std::unique_ptr<FramePlanner> planner_;
     std::unique_ptr<FrameRecorder> recorder_;
+    std::unique_ptr<Watch> watch_;
+    int first_substeps_ = 0;  ///< that the run began with
     mutable Snapshots snapshots_;
     std::shared_ptr<const SimulationState> start_;  ///< of the frame at hand
     /// Of the present state; null: none was asked for yet.

@@ -70,6 +70,16 @@ void warn_of_turns(const Model& model, const Obstacle& obstacle, Warnings& warni
 
 }  // namespace
 
+double energy_inside_obstacles(const Model& model) {
+    double energy = 0.0;
+    for (const Obstacle& obstacle : model.scene.obstacles) {
+        for (const BodyRange& body : model.bodies) {
+            energy += find_inside(model, body, obstacle).energy;
+        }
+    }
+    return energy;
+}
+
 void warn_of_start(const Model& model, Warnings& warnings) {
     for (const Obstacle& obstacle : model.scene.obstacles) {
         warn_of_inside(model, obstacle, warnings);

@@ -8,4 +8,7 @@ namespace weft {
 /// obstacles, and obstacles that turn too far in a substep for their sweep to follow.
 void warn_of_start(const Model& model, Warnings& warnings);
 
+/// What the vertices that start inside obstacles get by being pushed out in one substep [J].
+double energy_inside_obstacles(const Model& model);
+
 }  // namespace weft

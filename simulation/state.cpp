@@ -4,7 +4,6 @@
 #include <span>
 
 #include "runtime/error.h"
-#include "simulation/diagnostics.h"
 #include "simulation/output/state_hash.h"
 
 namespace weft {
@@ -48,13 +47,6 @@ std::vector<float> SimulationState::scene_velocities(const Model& model) const {
     return model.in_scene_order(velocities);
 }
 
-void SimulationState::measure_energies(const Model& model, double time, FrameRecord& frame) const {
-    const Energies energies = weft::measure_energies(model, positions, velocities, time);
-    frame.kinetic_energy = energies.kinetic;
-    frame.gravity_energy = energies.gravity;
-    frame.energies = energies.elements;
-}
-
 std::string SimulationState::hash(const Model& model) const {
     return state_hash(scene_positions(model), scene_velocities(model));
 }
@@ -64,7 +56,9 @@ Checkpoint SimulationState::checkpoint(int frame) const {
         const auto view = std::as_bytes(std::span(values));
         return std::vector<std::byte>(view.begin(), view.end());
     };
-    Checkpoint checkpoint{frame, {bytes(positions), bytes(velocities)}, {}};
+    Checkpoint checkpoint;
+    checkpoint.frame = frame;
+    checkpoint.buffers = {bytes(positions), bytes(velocities)};
     checkpoint.buffers.insert(checkpoint.buffers.end(), solver.begin(), solver.end());
     return checkpoint;
 }

@@ -23,8 +23,7 @@ struct SimulationState {
     /// xyz of all vertices in scene order [m], [m/s].
     std::vector<float> scene_positions(const Model& model) const;
     std::vector<float> scene_velocities(const Model& model) const;
-    /// Energies and the hash of the state at a time [s]. May run while the model goes on.
-    void measure_energies(const Model& model, double time, FrameRecord& frame) const;
+    /// Of the state. May run while the model goes on.
     std::string hash(const Model& model) const;
 
     Checkpoint checkpoint(int frame) const;

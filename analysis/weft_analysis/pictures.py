@@ -56,6 +56,10 @@ def energy(trace):
             axis.plot(time, energies[name], color=COLOURS[index % len(COLOURS)], label=name,
                       linewidth=1.4)
         axis.plot(time, energies["total"], color="black", label="total", linewidth=1.8)
+        for name, style in (("work", ":"), ("dissipated", "--")):
+            if name in frames.dtype.names:  # not in traces of earlier versions
+                axis.plot(time, frames[name][:len(time)], color="black", label=name,
+                          linewidth=1.0, linestyle=style)
         axis.set_xlabel("simulated time [s]")
         axis.set_ylabel("energy [J]")
         if len(time) > 1:

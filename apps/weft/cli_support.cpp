@@ -154,6 +154,19 @@ void add_output_options(CLI::App& command, RunOptions& options) {
     resume->group(group);
 }
 
+void add_trouble_option(CLI::App& command, RunOptions& options) {
+    command
+        .add_option("--on-trouble", options.on_trouble,
+                    "what to do about a frame that ends with energy from nowhere, or beyond the "
+                    "scene's [guard]: stop; halve (do it again from its start with twice the "
+                    "substeps, up to 16 times as many, and go on with these); report (say so, and "
+                    "go on)")
+        ->type_name("KIND")
+        ->check(one_of({"stop", "halve", "report"}))
+        ->capture_default_str()
+        ->group("Scene");
+}
+
 void add_talk_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "say nothing but results and errors");
     command.add_flag("--json", options.json, "print the results as one JSON document");
@@ -164,6 +177,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     add_device_options(command, options);
     add_output_options(command, options);
     add_talk_options(command, options);
+    add_trouble_option(command, options);
     command
         .add_flag_callback(
             "--print-schema",

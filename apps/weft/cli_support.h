@@ -23,6 +23,9 @@ void add_memory_option(CLI::App& command, RunOptions& options);
 /// --out --no-geometry --no-trace --force --resume.
 void add_output_options(CLI::App& command, RunOptions& options);
 
+/// --on-trouble.
+void add_trouble_option(CLI::App& command, RunOptions& options);
+
 /// --quiet --json.
 void add_talk_options(CLI::App& command, RunOptions& options);
 

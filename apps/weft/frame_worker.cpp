@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "runtime/error.h"
+#include "simulation/diagnostics.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -47,7 +48,7 @@ std::string read_line(int descriptor) {
 }
 
 std::string frame_line(Simulation& simulation) {
-    const FrameRecord frame = simulation.advance({.tasks = false, .energies = false});
+    const FrameRecord frame = simulation.advance({.tasks = false});
     const auto& devices = simulation.devices();
     double busy = 0.0;  // of those that could have been
     int taking_part = 0;
@@ -64,11 +65,10 @@ std::string frame_line(Simulation& simulation) {
 }
 
 std::string end_line(const Simulation& simulation) {
-    FrameRecord state;
-    simulation.snapshot()->measure_energies(simulation.model(), simulation.time(), state);
-    return fmt::format("{} {}", simulation.hash(),
-                       std::accumulate(state.energies.begin(), state.energies.end(),
-                                       state.kinetic_energy + state.gravity_energy));
+    const auto state = simulation.snapshot();
+    const Energies energies = measure_energies(simulation.model(), state->positions,
+                                               state->velocities, simulation.time());
+    return fmt::format("{} {}", simulation.hash(), energies.total());
 }
 
 }  // namespace
@@ -104,7 +104,9 @@ void FrameWorker::serve(const RunOptions& options, int in, int out) {
     try {
         const Scene scene = read_scene(options.scene, options.overrides());
         Warnings warnings;
-        Simulation simulation(scene, options.simulation(), warnings);
+        SimulationOptions settings = options.simulation();
+        settings.on_trouble = OnTrouble::kReport;  // times are what is asked for
+        Simulation simulation(scene, settings, warnings);
         char command = 0;
         while (::read(in, &command, 1) == 1 && command != kEnd) {
             if (command == kFrame)

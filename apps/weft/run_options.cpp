@@ -30,6 +30,11 @@ PlanKind plan_kind(const std::string& name) {
         "--plan {}: not in this version of weft; available: auto, exact, placed, single", name));
 }
 
+OnTrouble on_trouble_of(const std::string& name) {
+    if (name == "halve") return OnTrouble::kHalve;
+    return name == "report" ? OnTrouble::kReport : OnTrouble::kStop;
+}
+
 /// Of the user, unless a sweep keeps its own: runs side by side measure other times than alone.
 std::filesystem::path usual_cost_file() {
     if (const char* own = std::getenv("WEFT_COSTS")) return own;
@@ -68,6 +73,7 @@ SimulationOptions RunOptions::simulation() const {
     options.device_options.memory = memory_model(memory);
     if (!strips.empty()) options.division = Division{strips};
     options.cost_file = usual_cost_file();
+    options.on_trouble = on_trouble_of(on_trouble);
     return options;
 }
 

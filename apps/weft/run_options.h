@@ -16,6 +16,7 @@ struct RunOptions {
     std::string plan = "auto";
     std::string math = "strict";
     std::string memory = "auto";
+    std::string on_trouble = "stop";
     std::vector<int> strips;  ///< per device; empty: planned
     // Values of the scene stay text: the scene's own check says what is wrong with them.
     std::optional<std::string> solver;

@@ -38,6 +38,7 @@ RunDescription describe_run(const Simulation& simulation, const RunOptions& opti
     run.settings.emplace_back("devices", options.device);
     run.settings.emplace_back("plan", options.plan);
     run.settings.emplace_back("math", options.math);
+    run.settings.emplace_back("on_trouble", options.on_trouble);
     if (options.memory != "auto") run.settings.emplace_back("memory", options.memory);
     if (!options.strips.empty()) {
         run.settings.emplace_back("division", fmt::format("{}", fmt::join(options.strips, ",")));

@@ -57,7 +57,6 @@ SceneRun::SceneRun(const RunOptions& options)
     if (options_.resume) find_earlier(description);
     folder_.claim(earlier_.has_value());
     summary_.emplace(description);
-    energy_check_.emplace(simulation_->model(), energies());
     if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
     if (!options_.no_geometry) open_geometry();
     if (earlier_) take_over();
@@ -160,8 +159,8 @@ std::size_t SceneRun::geometry_steps(int frames) const {
 void SceneRun::append_geometry() {
     if (simulation_->frame() % scene_.output.every != 0) return;
     geometry_->append(simulation_->time(),
-                      [&model = simulation_->model(), state = simulation_->snapshot()] {
-                          return state->scene_positions(model);
+                      [model = simulation_->shared_model(), state = simulation_->snapshot()] {
+                          return state->scene_positions(*model);
                       });
 }
 
@@ -170,8 +169,9 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     last_end_ = simulation_->clock();
     while (frames_done() < scene_.frames && notice.signal() == 0) {
         keep_checkpoint();
-        FrameRecord record = simulation_->advance({.tasks = trace_.has_value(), .energies = false});
+        FrameRecord record = simulation_->advance({.tasks = trace_.has_value()});
         say_losses();
+        say_troubles();
         if (geometry_) append_geometry();
         progress.show(frames_done());
         if (trace_) trace_->settle();
@@ -181,14 +181,11 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     }
 }
 
-/// Energies and the hash are found out while the next frame runs.
+/// The hash is found out while the next frame runs.
 void SceneRun::append_trace(FrameRecord record) {
     trace_->append(std::move(record),
-                   [&model = simulation_->model(), state = simulation_->snapshot(),
-                    time = simulation_->time()](FrameRecord& frame) {
-                       state->measure_energies(model, time, frame);
-                       frame.state_hash = state->hash(model);
-                   });
+                   [model = simulation_->shared_model(), state = simulation_->snapshot()](
+                       FrameRecord& frame) { frame.state_hash = state->hash(*model); });
 }
 
 /// All time since the record before was closed belongs to this one.
@@ -226,34 +223,29 @@ void SceneRun::say_losses() {
     }
 }
 
+/// Warnings of the results, on stderr and in the summary.
+void SceneRun::say_troubles() {
+    const auto& troubles = simulation_->troubles();
+    for (; troubles_said_ < troubles.size(); ++troubles_said_) {
+        const Trouble& trouble = troubles[troubles_said_];
+        const std::string text = fmt::format("frame {}: {}", trouble.frame, trouble.what);
+        std::cerr << fmt::format("weft: warning: {}\n", text);
+        summary_->warn(text);
+    }
+}
+
 std::string SceneRun::text_of(const LostDevice& lost) const {
     const auto& device = simulation_->devices()[static_cast<std::size_t>(lost.device)];
     return fmt::format("device {} ({}) was lost in frame {}, the others go on without it: {}",
                        lost.device, device->info().name, lost.frame, lost.why);
 }
 
-/// Of the present state.
-FrameRecord SceneRun::energies() const {
-    FrameRecord now;
-    simulation_->snapshot()->measure_energies(simulation_->model(), simulation_->time(), now);
-    return now;
-}
-
-void SceneRun::check_energy(const FrameRecord& end) {
-    const auto warning = energy_check_->look(end);
-    if (!warning) return;
-    warnings_.push_back(*warning);
-    std::cerr << fmt::format("weft: warning: {}\n", *warning);
-}
-
 RunSummary SceneRun::finish() {
     simulation_->save_costs();
-    const FrameRecord end = energies();
-    check_energy(end);
-    summary_->set_energies(end);
     RunSummary summary = summary_->summary();
     for (const LostDevice& lost : simulation_->losses()) summary.losses.push_back(text_of(lost));
-    summary.warnings = all_warnings();
+    const Warnings more = all_warnings();
+    summary.warnings.insert(summary.warnings.begin(), more.begin(), more.end());
     summary.finished = frames_done() == scene_.frames;
     summary.state_hash = simulation_->hash();
     if (trace_) {

@@ -6,7 +6,6 @@
 #include "apps/weft/interrupt.h"
 #include "apps/weft/output_folder.h"
 #include "apps/weft/run_options.h"
-#include "simulation/energy_check.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -37,13 +36,12 @@ private:
     void open_geometry();
     void close(FrameRecord& record);
     void append_trace(FrameRecord record);
-    FrameRecord energies() const;
-    void check_energy(const FrameRecord& end);
     void keep_checkpoint();
     Checkpoint checkpoint() const;
     std::size_t geometry_steps(int frames) const;
     void append_geometry();
     void say_losses();
+    void say_troubles();
     std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;
@@ -51,11 +49,11 @@ private:
     OutputFolder folder_;
     Warnings warnings_;
     std::optional<Simulation> simulation_;
-    std::optional<EnergyCheck> energy_check_;
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
     std::size_t losses_said_ = 0;
+    std::size_t troubles_said_ = 0;
     std::optional<EarlierRun> earlier_;  ///< that this run goes on from
     std::optional<Checkpoint> pending_;  ///< written once its frames are on disk
     double last_checkpoint_ = 0.0;       ///< steady-clock seconds

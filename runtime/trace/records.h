@@ -144,9 +144,15 @@ struct FrameRecord {
     std::vector<CostRecord> costs;          ///< that the frame was planned with
     std::vector<LinkRecord> links;          ///< likewise; empty with a single device
     std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
-    double kinetic_energy = 0.0;            ///< [J]; the frame's end state
-    double gravity_energy = 0.0;            ///< potential in gravity [J]
-    std::vector<double> energies;           ///< [RunDescription::energies] [J]; empty: not measured
+    std::uint32_t substeps = 0;             ///< that the frame was made of; 0: not known
+    // Of the state at the frame's end.
+    double strain_rms = 0.0;       ///< of all edges, |length / rest length - 1|
+    double strain_max = 0.0;       ///< of the worst one
+    double kinetic_energy = 0.0;   ///< [J]
+    double gravity_energy = 0.0;   ///< potential in gravity [J]
+    double work = 0.0;             ///< by what moves by itself, since the start [J]; NaN: not known
+    double dissipated = 0.0;       ///< since the start [J]; NaN: not known
+    std::vector<double> energies;  ///< [RunDescription::energies] [J]; empty: not measured
 
     double wall_time() const { return end - start; }
 };

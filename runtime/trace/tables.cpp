@@ -131,8 +131,13 @@ RowType frame_row_type(std::size_t device_count) {
              column("measure_time", &FrameColumns::measure_time, "s"),
              column("output_time", &FrameColumns::output_time, "s"),
              column("pace", &FrameColumns::pace),
+             column("strain_rms", &FrameColumns::strain_rms),
+             column("strain_max", &FrameColumns::strain_max),
+             column("work", &FrameColumns::work, "J"),
+             column("dissipated", &FrameColumns::dissipated, "J"),
              column("transferred_bytes", &FrameColumns::transferred_bytes, "B"),
              column("graph", &FrameColumns::graph),
+             column("substeps", &FrameColumns::substeps),
 
              {"planner", planner.id(), offsetof(FrameColumns, planner)},
              {"state_hash", hash.id(), offsetof(FrameColumns, state_hash)}},

@@ -42,8 +42,13 @@ struct FrameColumns {
     double measure_time = 0.0;
     double output_time = 0.0;
     double pace = 0.0;  ///< 0: not known
+    double strain_rms = 0.0;
+    double strain_max = 0.0;
+    double work = 0.0;
+    double dissipated = 0.0;
     std::uint64_t transferred_bytes = 0;
     std::uint32_t graph = 0;
+    std::uint32_t substeps = 0;         ///< 0: not known
     std::array<char, 16> planner{};     ///< filled up with zeros
     std::array<char, 32> state_hash{};  ///< all zero: not known
 };

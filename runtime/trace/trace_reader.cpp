@@ -271,6 +271,11 @@ private:
             frame.measure_time = columns.measure_time;
             frame.output_time = columns.output_time;
             frame.pace = columns.pace > 0.0 ? columns.pace : 1.0;
+            frame.strain_rms = columns.strain_rms;
+            frame.strain_max = columns.strain_max;
+            frame.work = columns.work;
+            frame.dissipated = columns.dissipated;
+            frame.substeps = columns.substeps;
             frame.transferred_bytes = columns.transferred_bytes;
             frame.planner = text_of(columns.planner);
             frame.state_hash = text_of(columns.state_hash);

@@ -127,8 +127,13 @@ struct Tables {
                                 record.measure_time,
                                 record.output_time,
                                 record.pace,
+                                record.strain_rms,
+                                record.strain_max,
+                                record.work,
+                                record.dissipated,
                                 record.transferred_bytes,
                                 record.graph ? record.graph->graph : trace::kNoGraph,
+                                record.substeps,
                                 {},
                                 {}};
         fill(row.planner, record.planner);

@@ -1,9 +1,8 @@
 #include "simulation/families/family.h"
 
-#include <fmt/format.h>
-
 #include <stdexcept>
 
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/convert.h"
 
 namespace weft {
@@ -14,9 +13,8 @@ std::unique_ptr<StencilSolve> ElementFamily::make_stencils(const VertexLayout& /
 }
 
 double ElementFamily::total_energy(std::span<const float4> positions) const {
-    double sum = 0.0;
-    for (int e = 0; e < count(); ++e) sum += energy(e, positions_of(e, positions).data());
-    return sum;
+    return sum_of_blocks(count(),
+                         [&](int begin, int end) { return sum_energies(begin, end, positions); });
 }
 
 std::array<Vec3, kMaxCorners> ElementFamily::positions_of(int element,
@@ -29,16 +27,18 @@ std::array<Vec3, kMaxCorners> ElementFamily::positions_of(int element,
     return x;
 }
 
-std::optional<BadState> ElementFamily::first_beyond(
-    double most, const char* what, const std::function<double(int)>& stretch) const {
-    for (int e = 0; e < count(); ++e) {
-        const double ratio = stretch(e);
-        if (ratio <= 1.0 + most) continue;
-        return BadState{corners(e)[0], fmt::format("{} is stretched to {:g} times its size, beyond "
-                                                   "guard.max_strain = {:g}",
-                                                   what, ratio, most)};
+void ElementFamily::add_edges_of(std::span<const int> corners, const std::array<Vec3, 3>& b,
+                                 std::vector<Edge>& edges) {
+    const double determinant = dot(b[0], cross(b[1], b[2]));
+    std::array<Vec3, kMaxCorners> x{};  // at rest
+    for (std::size_t k = 0; k < 3; ++k) {
+        x[k + 1] = (1.0 / determinant) * cross(b[(k + 1) % 3], b[(k + 2) % 3]);
     }
-    return std::nullopt;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        for (std::size_t j = i + 1; j < corners.size(); ++j) {
+            edges.push_back({corners[i], corners[j], length(x[j] - x[i])});
+        }
+    }
 }
 
 }  // namespace weft

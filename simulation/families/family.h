@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +22,12 @@ struct FamilyNames {
     std::string name;    ///< of its folder, its buffers and its files of kernels: "hinges"
     std::string title;   ///< in messages: "bending"
     std::string energy;  ///< of its column in traces: "bend"
+};
+
+/// An edge of a body.
+struct Edge {
+    int a, b;     ///< vertices, new order
+    double rest;  ///< its length at rest [m]
 };
 
 /// A state that is no state: what is wrong with which vertex.
@@ -142,29 +146,51 @@ public:
 
     /// [J]
     virtual double energy(int element, const Vec3* x) const = 0;
+    /// Of elements [begin, end), one after the other [J]; by sum_of_energies().
+    virtual double sum_energies(int begin, int end, std::span<const float4> positions) const = 0;
     /// dE/dx of each corner [N]
     virtual void gradient(int element, const Vec3* x, Vec3* gradient) const = 0;
     /// d2E/dx_jdx_k [N/m] as blocks[j * corners + k]; the exact one, which may be indefinite.
     virtual void hessian(int element, const Vec3* x, Mat3* blocks) const = 0;
 
-    /// Of all elements [J]. positions: [vertices]
+    /// Of all elements [J], added up in blocks by as many threads as there are: always in the same
+    /// order. positions: [vertices]
     double total_energy(std::span<const float4> positions) const;
-    /// The first element whose stretch - 1 is beyond `most`, if the family has such a measure.
-    virtual std::optional<BadState> find_overstretched(std::span<const float4> /*positions*/,
-                                                       double /*most*/) const {
-        return std::nullopt;
-    }
+    /// Adds the edges of bodies that elements lie along; of elements that share one, each its own.
+    virtual void add_edges(std::vector<Edge>& /*edges*/) const {}
 
-protected:
     std::array<Vec3, kMaxCorners> positions_of(int element,
                                                std::span<const float4> positions) const;
-    /// For find_overstretched(), where a stretch is a ratio of sizes, 1 at rest. what: an element
-    std::optional<BadState> first_beyond(double most, const char* what,
-                                         const std::function<double(int element)>& stretch) const;
+
+protected:
+    /// Where the family's own energy() is known, so that no call is left in the loop.
+    template <class Own>
+    static double sum_of_energies(const Own& family, int begin, int end,
+                                  std::span<const float4> positions);
+    /// The edges of a triangle or tetrahedron whose rest edges from the first corner are the
+    /// columns of the inverse of the matrix with rows b [1/m]. Of a triangle, b[2] is across.
+    static void add_edges_of(std::span<const int> corners, const std::array<Vec3, 3>& b,
+                             std::vector<Edge>& edges);
 
 private:
     FamilyNames names_;
     Elements elements_;
 };
+
+template <class Own>
+double ElementFamily::sum_of_energies(const Own& family, int begin, int end,
+                                      std::span<const float4> positions) {
+    double sum = 0.0;
+    std::array<Vec3, kMaxCorners> x;
+    for (int e = begin; e < end; ++e) {
+        std::size_t corner = 0;
+        for (const int v : family.corners(e)) {
+            const float4& p = positions[static_cast<std::size_t>(v)];
+            x[corner++] = {p.x, p.y, p.z};
+        }
+        sum += family.Own::energy(e, x.data());
+    }
+    return sum;
+}
 
 }  // namespace weft

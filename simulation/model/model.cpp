@@ -107,6 +107,7 @@ Model::Model(const Scene& given, Gathered all, Warnings& warnings)
         families.push_back(family->build(strips, all.rest));
         families.back()->reserve(scene.substeps);
     }
+    edges = std::make_unique<Edges>(families);
     if (!all.moving.empty()) {
         moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
                                                    strips, scene.substeps);

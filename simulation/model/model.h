@@ -7,6 +7,7 @@
 
 #include "simulation/families/family.h"
 #include "simulation/mesh/triangle_mesh.h"
+#include "simulation/model/edges.h"
 #include "simulation/model/gathered.h"
 #include "simulation/model/moving_pins.h"
 #include "simulation/model/obstacles.h"
@@ -73,6 +74,7 @@ public:
 
     /// Those that the scene has elements of, in the order of element_families.h.
     std::vector<std::unique_ptr<ElementFamily>> families;
+    std::unique_ptr<Edges> edges;
     std::unique_ptr<MovingPins> moving_pins;  ///< null: no pin moves
     std::unique_ptr<Obstacles> obstacles;     ///< null: none
 

@@ -133,8 +133,11 @@ bool Obstacles::have_friction() const {
 }
 
 double distance_to(const Obstacle& obstacle, Vec3 point, double time) {
-    return static_cast<double>(
-        near_obstacle(obstacle, obstacle.frame_at(time).to_local(point)).distance);
+    return distance_to_local(obstacle, obstacle.frame_at(time).to_local(point));
+}
+
+double distance_to_local(const Obstacle& obstacle, Vec3 local) {
+    return static_cast<double>(near_obstacle(obstacle, local).distance);
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,

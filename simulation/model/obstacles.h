@@ -34,5 +34,7 @@ private:
 
 /// The signed distance [m] of a point of the world from an obstacle's surface at `time` [s].
 double distance_to(const Obstacle& obstacle, Vec3 point, double time);
+/// The same for a point of its own frame.
+double distance_to_local(const Obstacle& obstacle, Vec3 local);
 
 }  // namespace weft

@@ -1,5 +1,6 @@
 #include "simulation/output/checkpoint.h"
 
+#include <bit>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -11,9 +12,9 @@ namespace weft {
 
 namespace {
 
-// Text lines: format, origin, frame, sizes of the report and the buffers; then their bytes, then
-// kEnd.
-constexpr const char* kFormat = "weft-checkpoint 2";
+// Text lines: format, origin, frame and substeps, the account's bits, sizes of the report and the
+// buffers; then their bytes, then kEnd.
+constexpr const char* kFormat = "weft-checkpoint 3";
 constexpr const char* kEnd = "end";
 
 template <class Bytes>
@@ -31,7 +32,11 @@ void read_bytes(std::istream& in, Bytes& bytes) {
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint) {
     std::string head = std::string(kFormat) + '\n' + origin + '\n';
-    head += std::to_string(checkpoint.frame) + '\n' + std::to_string(checkpoint.report.size());
+    head += std::to_string(checkpoint.frame) + ' ' + std::to_string(checkpoint.substeps) + '\n';
+    for (const double value : checkpoint.account) {
+        head += std::to_string(std::bit_cast<std::uint64_t>(value)) + ' ';
+    }
+    head += '\n' + std::to_string(checkpoint.report.size());
     head += ' ' + std::to_string(checkpoint.buffers.size());
     for (const auto& buffer : checkpoint.buffers) head += ' ' + std::to_string(buffer.size());
 
@@ -70,8 +75,13 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
         return size;
     };
     Checkpoint checkpoint;
-    in >> checkpoint.frame;
-    if (!in || checkpoint.frame < 0) throw damaged();
+    in >> checkpoint.frame >> checkpoint.substeps;
+    for (double& value : checkpoint.account) {
+        std::uint64_t bits = 0;
+        in >> bits;
+        value = std::bit_cast<double>(bits);
+    }
+    if (!in || checkpoint.frame < 0 || checkpoint.substeps < 1) throw damaged();
     checkpoint.report.resize(read_size());
     const std::uintmax_t count = read_size();
     for (std::uintmax_t b = 0; b < count; ++b) checkpoint.buffers.emplace_back(read_size());

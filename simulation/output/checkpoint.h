@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,8 @@ namespace weft {
 /// The state of a run between two frames.
 struct Checkpoint {
     int frame = 0;                                ///< the next one
+    int substeps = 0;                             ///< that its steps are made of
+    std::array<double, 3> account{};              ///< as EnergyAccount::save() gives it
     std::vector<std::vector<std::byte>> buffers;  ///< as Simulation::checkpoint() gives them
     std::vector<std::uint8_t> report;             ///< as SummaryBuilder::save() gives it
 };

@@ -79,10 +79,20 @@ double plan_time(const RunSummary& summary) {
     return summary.parts[static_cast<std::size_t>(part - kFrameParts)];
 }
 
+std::string strain_text(const RunSummary& summary) {
+    return fmt::format("RMS {:.3g} % at the end, {:.3g} % in frame {}; {:.3g} % of the worst edge",
+                       100.0 * summary.strain_rms_at_end, 100.0 * summary.strain_rms,
+                       summary.strain_frame, 100.0 * summary.strain_max);
+}
+
 std::string energies_text(const RunSummary& summary) {
     std::string text;
     for (auto it = summary.energies.rbegin(); it != summary.energies.rend(); ++it) {
         text += fmt::format("{}{} {:.6g} J", text.empty() ? "" : ", ", it->first, it->second);
+    }
+    if (!std::isnan(summary.dissipated)) {
+        text += fmt::format("; done by what moves {:.6g} J, dissipated {:.6g} J", summary.work,
+                            summary.dissipated);
     }
     return text;
 }
@@ -115,7 +125,17 @@ void SummaryBuilder::add(const FrameRecord& frame) {
     summary_.simulated_time = frame.sim_time;
     summary_.transferred_bytes += frame.transferred_bytes;
     for (std::size_t i = 0; i < device_count_; ++i) summary_.devices[i].busy += frame.busy.at(i);
-    if (frame.energies.size() == energy_names_.size()) set_energies(frame);
+    set_energies(frame);
+    add_strain(frame);
+}
+
+void SummaryBuilder::add_strain(const FrameRecord& frame) {
+    if (frames_.size() == 1 || frame.strain_rms > summary_.strain_rms) {
+        summary_.strain_rms = frame.strain_rms;
+        summary_.strain_frame = frame.frame;
+    }
+    summary_.strain_max = std::max(summary_.strain_max, frame.strain_max);
+    summary_.strain_rms_at_end = frame.strain_rms;
 }
 
 void SummaryBuilder::set_energies(const FrameRecord& frame) {
@@ -126,6 +146,8 @@ void SummaryBuilder::set_energies(const FrameRecord& frame) {
         total += frame.energies[i];
     }
     summary_.energies.emplace_back("total", total);
+    summary_.work = frame.work;
+    summary_.dissipated = frame.dissipated;
 }
 
 RunSummary SummaryBuilder::summary() const {
@@ -167,6 +189,11 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
     return nlohmann::json::to_cbor({{"simulated_time", summary_.simulated_time},
                                     {"transferred_bytes", summary_.transferred_bytes},
                                     {"energies", summary_.energies},
+                                    {"account", {summary_.work, summary_.dissipated}},
+                                    {"strain",
+                                     {summary_.strain_rms, summary_.strain_frame,
+                                      summary_.strain_max, summary_.strain_rms_at_end}},
+                                    {"warnings", summary_.warnings},
                                     {"devices", std::move(devices)},
                                     {"frames", std::move(frames)}});
 }
@@ -177,6 +204,14 @@ void SummaryBuilder::restore(std::span<const std::uint8_t> saved) {
         json.at("simulated_time").get_to(summary_.simulated_time);
         json.at("transferred_bytes").get_to(summary_.transferred_bytes);
         json.at("energies").get_to(summary_.energies);
+        json.at("warnings").get_to(summary_.warnings);
+        json.at("account").at(0).get_to(summary_.work);
+        json.at("account").at(1).get_to(summary_.dissipated);
+        const auto& strain = json.at("strain");
+        strain.at(0).get_to(summary_.strain_rms);
+        strain.at(1).get_to(summary_.strain_frame);
+        strain.at(2).get_to(summary_.strain_max);
+        strain.at(3).get_to(summary_.strain_rms_at_end);
         for (const auto& d : json.at("devices"))
             restore_device({d.at(0), d.at(1), d.at(2), d.at(3)});
         for (const auto& f : json.at("frames")) {
@@ -235,6 +270,12 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["transferred_bytes"] = summary.transferred_bytes;
     json["energy"] = summary.energies.empty() ? 0.0 : summary.energies.back().second;
     json["energies"] = energies;
+    json["work"] = summary.work;
+    json["dissipated"] = summary.dissipated;
+    json["strain_rms"] = summary.strain_rms;
+    json["strain_frame"] = summary.strain_frame;
+    json["strain_max"] = summary.strain_max;
+    json["strain_rms_at_end"] = summary.strain_rms_at_end;
     json["state_hash"] = summary.state_hash;
     json["files"] = files;
     json["command"] = summary.command;
@@ -268,6 +309,7 @@ std::string to_text(const RunSummary& summary) {
     line(text, "planner", fmt::format("{:.1f} us per frame", 1e6 * plan_time(summary)));
     line(text, "transfers", bytes_text(summary.transferred_bytes));
     line(text, "energy", energies_text(summary));
+    line(text, "strain of edges", strain_text(summary));
     line(text, "state hash", summary.state_hash.empty() ? "not known" : summary.state_hash);
     for (const auto& [what, path] : summary.files) line(text, what, path);
     return text;

@@ -42,10 +42,17 @@ struct RunSummary {
     double utilisation = 0.0;                            ///< mean over devices
     std::vector<Device> devices;
     std::vector<std::pair<std::string, double>> energies;  ///< at the end [J]; the last is "total"
-    std::vector<std::string> warnings;                     ///< what to doubt in the results
-    std::vector<std::string> losses;  ///< devices that failed in mid-run, and why
-    bool finished = false;            ///< all frames of the scene are done
-    std::string state_hash;           ///< after the last frame; empty: not known
+    double work = 0.0;        ///< by what moves by itself, all frames [J]; NaN: not known
+    double dissipated = 0.0;  ///< all frames [J]; NaN: not known
+    // Of edges, |length / rest length - 1|.
+    double strain_rms = 0.0;            ///< of all, in the frame in which it is most
+    std::size_t strain_frame = 0;       ///< that frame
+    double strain_max = 0.0;            ///< of the worst edge of all frames
+    double strain_rms_at_end = 0.0;     ///< of all, after the last frame
+    std::vector<std::string> warnings;  ///< what to doubt in the results
+    std::vector<std::string> losses;    ///< devices that failed in mid-run, and why
+    bool finished = false;              ///< all frames of the scene are done
+    std::string state_hash;             ///< after the last frame; empty: not known
     std::vector<std::pair<std::string, std::string>> files;  ///< what, and its path
 };
 
@@ -55,8 +62,8 @@ public:
     explicit SummaryBuilder(const RunDescription& run);
 
     void add(const FrameRecord& frame);
-    /// The energies at the end, where not every frame's record has them.
-    void set_energies(const FrameRecord& frame);
+    /// What to doubt in the results, besides what the caller adds.
+    void warn(std::string what) { summary_.warnings.push_back(std::move(what)); }
 
     /// The summary so far; state_hash and files are the caller's to fill.
     RunSummary summary() const;
@@ -76,6 +83,8 @@ private:
         std::array<double, std::size(kFrameParts)> parts;
     };
     void restore_device(const RunSummary::Device& device);
+    void set_energies(const FrameRecord& frame);
+    void add_strain(const FrameRecord& frame);
 
     RunSummary summary_;
     std::vector<std::string> energy_names_;

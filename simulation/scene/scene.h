@@ -191,11 +191,10 @@ struct Obstacle {
     Frame frame_at(double time) const { return moved(frame, motion, time); }
 };
 
-/// [guard]: beyond either bound a state counts as exploded, and the run stops.
+/// [guard]: beyond either bound a state counts as exploded.
 struct Guard {
     double max_speed = 1000.0;  ///< [m/s] of any vertex
-    /// Of any spring, |length / rest length - 1|; of triangles and tetrahedra, the mean stretch
-    /// - 1.
+    /// Of any edge of cloth and solids, |length / rest length - 1|.
     double max_strain = 100.0;
 };
 

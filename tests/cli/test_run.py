@@ -264,24 +264,61 @@ def test_fast_math_runs(folder):
     assert summary["finished"]
 
 
-def test_energy_from_nowhere_is_told(folder):
+@pytest.fixture
+def too_long(folder):
+    """A scene of steps that are far too long."""
     (folder / "scene.toml").write_text("""
 [scene]
-frames = 40
+frames = 12
 dt = 0.016666667
-substeps = 22
+substeps = 1
 [solver]
-method = "jpgd"
+iterations = 2
 [[cloth]]
-grid = { size = [1.0, 1.0], resolution = [64, 64] }
+grid = { size = [1.0, 1.0], resolution = [40, 40] }
 density = 0.2
-stretch = { stiffness = 1.0e4 }
+stretch = { stiffness = 1.0e5 }
 pins = { corners = ["x-z-", "x+z-"] }
 """)
-    command = ["run", "scene.toml", "--device", "cpu/1", "--no-geometry", "--json", "--force"]
-    wild = weft(*command, cwd=folder)
-    assert wild.returncode == 0 and "warning: energy from nowhere" in wild.stderr
-    assert "energy from nowhere" in json.loads(wild.stdout)["warnings"][0]
-    believable = weft(*command, "--solver", "vbd", cwd=folder)
-    assert "warning" not in believable.stderr
-    assert json.loads(believable.stdout)["warnings"] == []
+    return folder
+
+
+def test_energy_from_nowhere_stops_a_run(too_long):
+    result = run(too_long)
+    assert result.returncode == 1
+    assert "energy from nowhere" in result.stderr and "substep 0" in result.stderr
+    assert result.stderr.count("weft: error:") == 1
+    with h5py.File(too_long / "out/scene/trace.h5", swmr=True) as trace:
+        assert 0 < len(trace["frames"]) < 12  # those before are there
+
+
+def test_energy_from_nowhere_is_reported(too_long):
+    result = run(too_long, "--on-trouble", "report", "--json")
+    assert result.returncode == 0 and "warning: frame " in result.stderr
+    summary = json.loads(result.stdout)
+    assert any("energy from nowhere" in text for text in summary["warnings"])
+    assert summary["strain_rms"] > 0.05 and summary["strain_max"] >= summary["strain_rms"]
+
+
+def test_a_frame_with_energy_from_nowhere_is_done_again(too_long):
+    result = run(too_long, "--on-trouble", "halve", "--json")
+    assert result.returncode == 0
+    warnings = json.loads(result.stdout)["warnings"]
+    assert any("done again, and all that follows, with 2 substeps" in text for text in warnings)
+    trace = too_long / "out/scene/trace.h5"
+    with h5py.File(trace) as file:
+        substeps = list(file["frames"]["substeps"])
+        executions = file["executions"][:]
+    assert substeps == sorted(substeps) and substeps[0] == 1 and 1 < substeps[-1] <= 16
+    last = executions[executions["frame"] == 11]
+    assert max(last["substep"]) + 1 == substeps[-1]
+    replayed = weft("replay", str(trace), "--device", "cpu/1", cwd=too_long)
+    assert replayed.returncode == 0, replayed.stderr
+
+
+def test_believable_runs_raise_no_alarm(too_long):
+    text = (too_long / "scene.toml").read_text().replace("substeps = 1\n", "")
+    (too_long / "scene.toml").write_text(text)
+    summary = weft_json("run", "scene.toml", "--device", "cpu/1", "--no-geometry", cwd=too_long)
+    assert summary["warnings"] == []
+    assert summary["strain_rms"] < 0.05

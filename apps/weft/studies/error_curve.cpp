@@ -65,13 +65,14 @@ public:
     double advance() {
         simulation_.start_from(problem_.first_substep, problem_.start.positions,
                                problem_.start.velocities);
-        return simulation_.advance({.tasks = false, .energies = false}).measured_makespan;
+        return simulation_.advance({.tasks = false}).measured_makespan;
     }
     std::vector<float> positions() const { return simulation_.positions(); }
 
 private:
     static SimulationOptions how(const RunOptions& run) {
         SimulationOptions options = run.simulation();
+        options.on_trouble = OnTrouble::kIgnore;
         options.calibrate = has_choice(run);  // there is nothing to plan for one device
         return options;
     }

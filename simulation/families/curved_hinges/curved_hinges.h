@@ -25,6 +25,7 @@ public:
     Launch project(const ProjectTarget& target) override;
     std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
     Launch energy_terms(const TermTarget& target) override;
+    double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int hinge, const Vec3* x) const override;
     void gradient(int hinge, const Vec3* x, Vec3* gradient) const override;
     void hessian(int hinge, const Vec3* x, Mat3* blocks) const override;

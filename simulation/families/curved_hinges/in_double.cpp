@@ -29,6 +29,10 @@ double CurvedHinges::energy(int hinge, const Vec3* x) const {
     return 0.5 * kernels::dot3(b, b);
 }
 
+double CurvedHinges::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void CurvedHinges::gradient(int hinge, const Vec3* x, Vec3* gradient) const {
     for (int k = 0; k < 4; ++k) {
         const Seen s = see(*this, hinge, k, x);

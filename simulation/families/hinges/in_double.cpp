@@ -29,6 +29,10 @@ double Hinges::energy(int hinge, const Vec3* x) const {
     return kernels::hinge_energy(bend(weights_of(*this, hinge), x));
 }
 
+double Hinges::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void Hinges::gradient(int hinge, const Vec3* x, Vec3* gradient) const {
     const auto q = weights_of(*this, hinge);
     const kernels::real3 b = bend(q, x);

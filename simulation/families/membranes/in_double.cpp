@@ -24,6 +24,10 @@ double Membranes::energy(int triangle, const Vec3* x) const {
     return kernels::membrane_energy(deformed(*this, triangle, x));
 }
 
+double Membranes::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void Membranes::gradient(int triangle, const Vec3* x, Vec3* gradient) const {
     const kernels::membrane m = deformed(*this, triangle, x);
     for (int j = 0; j < 3; ++j) {
@@ -39,11 +43,6 @@ void Membranes::hessian(int triangle, const Vec3* x, Mat3* blocks) const {
                 to_mat3(kernels::membrane_block(m, b(*this, triangle, j), b(*this, triangle, k)));
         }
     }
-}
-
-double Membranes::stretch(int triangle, std::span<const float4> positions) const {
-    const auto m = deformed(*this, triangle, positions_of(triangle, positions).data());
-    return std::sqrt((kernels::dot3(m.u, m.u) + kernels::dot3(m.v, m.v)) / 2.0);
 }
 
 }  // namespace weft

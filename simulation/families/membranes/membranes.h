@@ -26,8 +26,6 @@ public:
     std::array<double, 2> shape_gradient(int triangle, int corner) const;
     double mu(int triangle) const { return column(material, 0, triangle); }
     double lambda(int triangle) const { return column(material, 1, triangle); }
-    /// |F| / sqrt(2): the mean stretch, 1 at rest.
-    double stretch(int triangle, std::span<const float4> positions) const;
 
     std::vector<std::string> constraints() const override { return {".area", ".shape"}; }
     Launch project(const ProjectTarget& target) override;
@@ -36,11 +34,11 @@ public:
     bool has_stencils() const override { return true; }
     std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                 const StencilLayout::Family& chosen) const override;
+    double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int triangle, const Vec3* x) const override;
     void gradient(int triangle, const Vec3* x, Vec3* gradient) const override;
     void hessian(int triangle, const Vec3* x, Mat3* blocks) const override;
-    std::optional<BadState> find_overstretched(std::span<const float4> positions,
-                                               double most) const override;
+    void add_edges(std::vector<Edge>& edges) const override;
 
     Buffer<float> shape;     ///< [4 * count] column-major: b_1, b_2 [1/m], u and v of each
     Buffer<float> material;  ///< [2 * count] column-major: mu, lambda, times rest area [J]

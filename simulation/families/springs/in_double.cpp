@@ -10,6 +10,10 @@ double Springs::energy(int spring, const Vec3* x) const {
                                   stiffness(spring));
 }
 
+double Springs::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void Springs::gradient(int spring, const Vec3* x, Vec3* gradient) const {
     gradient[0] = to_vec3(kernels::spring_gradient(to_real3(x[0]), to_real3(x[1]),
                                                    rest_length(spring), stiffness(spring)));

@@ -1,9 +1,5 @@
 #include "simulation/families/springs/springs.h"
 
-#include <fmt/format.h>
-
-#include "simulation/families/convert.h"
-
 namespace weft {
 
 Springs::Springs(const FamilyNames& names, const Stencils& springs, const Strips& strips,
@@ -26,20 +22,10 @@ std::vector<std::string> Springs::parts() const {
     return list;
 }
 
-std::optional<BadState> Springs::find_overstretched(std::span<const float4> positions,
-                                                    double most) const {
+void Springs::add_edges(std::vector<Edge>& edges) const {
     for (int s = 0; s < count(); ++s) {
-        if (!is_edge(s)) continue;
-        const auto ends = corners(s);
-        const Vec3 along = to_vec3(positions[static_cast<std::size_t>(ends[0])]) -
-                           to_vec3(positions[static_cast<std::size_t>(ends[1])]);
-        const double limit = rest_length(s) * (1.0 + most);
-        if (dot(along, along) <= limit * limit) continue;
-        return BadState{ends[0], fmt::format("edge of {:g} m is stretched to {:g} m, beyond "
-                                             "guard.max_strain = {:g}",
-                                             rest_length(s), length(along), most)};
+        if (is_edge(s)) edges.push_back({corners(s)[0], corners(s)[1], rest_length(s)});
     }
-    return std::nullopt;
 }
 
 }  // namespace weft

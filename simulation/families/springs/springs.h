@@ -29,12 +29,12 @@ public:
     bool has_stencils() const override { return true; }
     std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                 const StencilLayout::Family& chosen) const override;
+    double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int spring, const Vec3* x) const override;
     void gradient(int spring, const Vec3* x, Vec3* gradient) const override;
     void hessian(int spring, const Vec3* x, Mat3* blocks) const override;
-    /// Attachments are left out: vertices that are tied to each other in one place have no length.
-    std::optional<BadState> find_overstretched(std::span<const float4> positions,
-                                               double most) const override;
+    /// Attachments are none.
+    void add_edges(std::vector<Edge>& edges) const override;
 
     Buffer<float> material;  ///< [2 * count] column-major: rest length [m], compliance 1/k [m/N]
 

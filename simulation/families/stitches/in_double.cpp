@@ -18,6 +18,10 @@ double Stitches::energy(int stitch, const Vec3* x) const {
                                   stiffness(stitch));
 }
 
+double Stitches::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void Stitches::gradient(int stitch, const Vec3* x, Vec3* gradient) const {
     gradient[0] = to_vec3(kernels::spring_gradient(to_real3(x[0]), to_real3(x[1]),
                                                    rest_of(*this, stitch), stiffness(stitch)));

@@ -26,6 +26,10 @@ double Tetrahedra::energy(int tetrahedron, const Vec3* x) const {
     return kernels::tetrahedron_energy(deformed(*this, tetrahedron, x));
 }
 
+double Tetrahedra::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void Tetrahedra::gradient(int tetrahedron, const Vec3* x, Vec3* gradient) const {
     const kernels::tetrahedron t = deformed(*this, tetrahedron, x);
     for (int j = 0; j < 4; ++j) {
@@ -41,13 +45,6 @@ void Tetrahedra::hessian(int tetrahedron, const Vec3* x, Mat3* blocks) const {
                 kernels::tetrahedron_block(t, b(*this, tetrahedron, j), b(*this, tetrahedron, k)));
         }
     }
-}
-
-double Tetrahedra::stretch(int tetrahedron, std::span<const float4> positions) const {
-    const auto t = deformed(*this, tetrahedron, positions_of(tetrahedron, positions).data());
-    return std::sqrt((kernels::dot3(t.map.x, t.map.x) + kernels::dot3(t.map.y, t.map.y) +
-                      kernels::dot3(t.map.z, t.map.z)) /
-                     3.0);
 }
 
 }  // namespace weft

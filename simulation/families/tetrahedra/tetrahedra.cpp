@@ -45,9 +45,15 @@ std::array<double, 3> Tetrahedra::shape_gradient(int tetrahedron, int corner) co
     return {b.x, b.y, b.z};
 }
 
-std::optional<BadState> Tetrahedra::find_overstretched(std::span<const float4> positions,
-                                                       double most) const {
-    return first_beyond(most, "tetrahedron", [&](int t) { return stretch(t, positions); });
+void Tetrahedra::add_edges(std::vector<Edge>& edges) const {
+    for (int t = 0; t < count(); ++t) {
+        std::array<Vec3, 3> b;
+        for (int k = 0; k < 3; ++k) {
+            const auto [x, y, z] = shape_gradient(t, k + 1);
+            b[static_cast<std::size_t>(k)] = {x, y, z};
+        }
+        add_edges_of(corners(t), b, edges);
+    }
 }
 
 }  // namespace weft

@@ -16,8 +16,6 @@ public:
     std::array<double, 3> shape_gradient(int tetrahedron, int corner) const;
     double mu(int tetrahedron) const { return column(material, 0, tetrahedron); }
     double lambda(int tetrahedron) const { return column(material, 1, tetrahedron); }
-    /// |F| / sqrt(3): the mean stretch, 1 at rest.
-    double stretch(int tetrahedron, std::span<const float4> positions) const;
 
     std::vector<std::string> constraints() const override { return {".volume", ".shape"}; }
     Launch project(const ProjectTarget& target) override;
@@ -26,11 +24,11 @@ public:
     bool has_stencils() const override { return true; }
     std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                 const StencilLayout::Family& chosen) const override;
+    double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int tetrahedron, const Vec3* x) const override;
     void gradient(int tetrahedron, const Vec3* x, Vec3* gradient) const override;
     void hessian(int tetrahedron, const Vec3* x, Mat3* blocks) const override;
-    std::optional<BadState> find_overstretched(std::span<const float4> positions,
-                                               double most) const override;
+    void add_edges(std::vector<Edge>& edges) const override;
 
     Buffer<float> shape;     ///< [9 * count] column-major: b_1, b_2, b_3 [1/m]
     Buffer<float> material;  ///< [2 * count] column-major: mu, lambda, times rest volume [J]

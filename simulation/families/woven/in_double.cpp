@@ -24,6 +24,10 @@ double WovenCloth::energy(int triangle, const Vec3* x) const {
     return kernels::woven_energy(deformed(*this, triangle, x));
 }
 
+double WovenCloth::sum_energies(int begin, int end, std::span<const float4> positions) const {
+    return sum_of_energies(*this, begin, end, positions);
+}
+
 void WovenCloth::gradient(int triangle, const Vec3* x, Vec3* gradient) const {
     const kernels::woven w = deformed(*this, triangle, x);
     for (int j = 0; j < 3; ++j) {
@@ -39,13 +43,6 @@ void WovenCloth::hessian(int triangle, const Vec3* x, Mat3* blocks) const {
                 to_mat3(kernels::woven_block(w, b(*this, triangle, j), b(*this, triangle, k)));
         }
     }
-}
-
-double WovenCloth::stretch(int triangle, std::span<const float4> positions) const {
-    const auto w = deformed(*this, triangle, positions_of(triangle, positions).data());
-    const kernels::real3 u = w.warp.image;
-    const kernels::real3 v = w.weft.image;
-    return std::sqrt((kernels::dot3(u, u) + kernels::dot3(v, v)) / 2.0);
 }
 
 }  // namespace weft

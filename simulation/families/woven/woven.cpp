@@ -38,9 +38,13 @@ std::array<double, 2> WovenCloth::shape_gradient(int triangle, int corner) const
     return {-row(0)[0] - row(1)[0], -row(0)[1] - row(1)[1]};
 }
 
-std::optional<BadState> WovenCloth::find_overstretched(std::span<const float4> positions,
-                                                       double most) const {
-    return first_beyond(most, "triangle", [&](int t) { return stretch(t, positions); });
+void WovenCloth::add_edges(std::vector<Edge>& edges) const {
+    for (int t = 0; t < count(); ++t) {
+        const auto b1 = shape_gradient(t, 1);
+        const auto b2 = shape_gradient(t, 2);
+        add_edges_of(corners(t), {Vec3{b1[0], b1[1], 0}, Vec3{b2[0], b2[1], 0}, Vec3{0, 0, 1}},
+                     edges);
+    }
 }
 
 }  // namespace weft

@@ -24,8 +24,6 @@ public:
     std::array<double, 2> shape_gradient(int triangle, int corner) const;
     /// k: 0 warp, 1 weft, 2 shear; times the rest area [J]
     double stiffness(int triangle, int k) const { return column(material, k, triangle); }
-    /// |F| / sqrt(2): the mean stretch, 1 at rest.
-    double stretch(int triangle, std::span<const float4> positions) const;
 
     std::vector<std::string> constraints() const override { return {".warp", ".weft", ".shear"}; }
     Launch project(const ProjectTarget& target) override;
@@ -34,11 +32,11 @@ public:
     bool has_stencils() const override { return true; }
     std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                 const StencilLayout::Family& chosen) const override;
+    double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int triangle, const Vec3* x) const override;
     void gradient(int triangle, const Vec3* x, Vec3* gradient) const override;
     void hessian(int triangle, const Vec3* x, Mat3* blocks) const override;
-    std::optional<BadState> find_overstretched(std::span<const float4> positions,
-                                               double most) const override;
+    void add_edges(std::vector<Edge>& edges) const override;
 
     Buffer<float> shape;     ///< [4 * count] column-major: b_1, b_2 [1/m], warp and weft of each
     Buffer<float> material;  ///< [3 * count] column-major: warp, weft, shear, times rest area [J]

@@ -82,6 +82,11 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.transferred_bytes, expected.transferred_bytes);
     EXPECT_EQ(frame.busy, expected.busy);
     EXPECT_EQ(frame.gravity_energy, expected.gravity_energy);
+    EXPECT_EQ(frame.work, expected.work);
+    EXPECT_EQ(frame.dissipated, expected.dissipated);
+    EXPECT_EQ(frame.strain_rms, expected.strain_rms);
+    EXPECT_EQ(frame.strain_max, expected.strain_max);
+    EXPECT_EQ(frame.substeps, expected.substeps);
     EXPECT_EQ(frame.energies, expected.energies);
     ASSERT_EQ(frame.plan.size(), expected.plan.size());
     EXPECT_EQ(frame.plan[20].first_strip, expected.plan[20].first_strip);

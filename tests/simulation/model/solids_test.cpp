@@ -95,7 +95,6 @@ TEST(SolidModel, EnergyOfAUniformDeformationIsThatOfTheMaterial) {
         0.25 * (0.5 * mu * (norm - 3.0) - mu * (J - 1.0) + 0.5 * lambda * (J - 1.0) * (J - 1.0));
     const auto x = mapped(built.model, map);
     EXPECT_NEAR(built.model.find<Tetrahedra>()->total_energy(x), expected, 1e-5 * expected);
-    EXPECT_NEAR(built.model.find<Tetrahedra>()->stretch(0, x), std::sqrt(norm / 3.0), 1e-5);
     EXPECT_LT(built.model.find<Tetrahedra>()->total_energy(built.model.positions->span()),
               1e-6 * expected);
 }
@@ -113,7 +112,6 @@ TEST(MembraneModel, EnergyOfAUniformDeformationIsThatOfTheMaterial) {
         0.5 * (0.5 * mu * (norm - 2.0) - mu * (J - 1.0) + 0.5 * lambda * (J - 1.0) * (J - 1.0));
     const auto x = mapped(built.model, map);
     EXPECT_NEAR(built.model.find<Membranes>()->total_energy(x), expected, 1e-5 * expected);
-    EXPECT_NEAR(built.model.find<Membranes>()->stretch(0, x), std::sqrt(norm / 2.0), 1e-5);
 }
 
 TEST(AttachmentModel, TiesSelectedVerticesToTheNearestOnes) {

@@ -37,6 +37,10 @@ FrameRecord frame(std::uint32_t i) {
     frame.kinetic_energy = 3.0;
     frame.gravity_energy = -1.0;
     frame.energies = {0.5};
+    frame.work = 0.5 * i;
+    frame.dissipated = 0.25 * i;
+    frame.strain_rms = i == 7 ? 0.3 : 0.01;
+    frame.strain_max = i == 5 ? 0.8 : 0.02;
     return frame;
 }
 
@@ -63,6 +67,12 @@ TEST(Summary, CountsOverFrames) {
     EXPECT_EQ(summary.transferred_bytes, 20000U);
     EXPECT_EQ(summary.energies.back().first, "total");
     EXPECT_DOUBLE_EQ(summary.energies.back().second, 2.5);
+    EXPECT_EQ(summary.work, 9.5);
+    EXPECT_EQ(summary.dissipated, 4.75);
+    EXPECT_EQ(summary.strain_rms, 0.3);
+    EXPECT_EQ(summary.strain_frame, 7U);
+    EXPECT_EQ(summary.strain_max, 0.8);
+    EXPECT_EQ(summary.strain_rms_at_end, 0.01);
 }
 
 TEST(Summary, GoesOnFromWhatWasSaved) {

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "simulation/diagnostics.h"
+#include "simulation/outside_work.h"
+
+namespace weft {
+
+/// What speaks against a state that is finite and within the scene's [guard].
+struct EnergyAlarm {
+    std::string what;
+    bool is_explosion = false;  ///< no longer a matter of steps that are solved a little short
+};
+
+/// Where the energy of a run comes from. At any time
+///
+///     kinetic + potential + dissipated = the start's energy + work from outside,
+///
+/// and what is dissipated is not negative. Steps that are not solved far enough may make energy
+/// from nowhere, with every number finite; this finds it, in the frame in which it happens.
+class EnergyAccount {
+public:
+    /// The account at a frame's end.
+    struct Entry {
+        double start = 0.0;  ///< energy that the account began with [J]
+        OutsideWork outside;
+        Energies energies;
+        bool is_known = true;  ///< false: something works of which nothing is known
+
+        double dissipated() const { return start + outside.work - energies.total(); }
+    };
+
+    /// start: of the state that the run begins with
+    EnergyAccount(const Model& model, const Energies& start);
+
+    const Entry& last() const { return last_; }
+    /// With one more frame, that begins at `time`. known: where the frame before left it
+    Entry with_frame(double time, const OutsideWork& outside, const Energies& end) const;
+    /// Whether there is energy from nowhere in it. reach: the largest coordinate [m]
+    std::optional<EnergyAlarm> look(const Entry& entry, const Strain& strain, double reach) const;
+    void accept(Entry entry) { last_ = std::move(entry); }
+    /// Begins anew: what was made from nowhere is now there to be had.
+    void forgive();
+
+    /// The numbers that it carries, for checkpoints.
+    std::array<double, 3> save() const;
+    void restore(const std::array<double, 3>& saved, const Energies& now);
+
+private:
+    double small(double reach) const;
+
+    double closed_;    ///< [s] when the last seam is: until then the ends of frames tell too little
+    double small_;     ///< [J] that a little fall gives, and what starts inside obstacles gets
+    double rounding_;  ///< [J/m^2] that rounding of coordinates gives, by their squares
+    Entry last_;
+};
+
+/// The largest coordinate [m].
+double reach_of(std::span<const float4> positions);
+
+}  // namespace weft

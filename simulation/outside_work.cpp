@@ -1,0 +1,141 @@
+#include "simulation/outside_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/tbb/parallel.h"
+#include "simulation/diagnostics.h"
+#include "simulation/families/convert.h"
+
+namespace weft {
+
+namespace {
+
+constexpr double kTouch = 1e-4;  ///< [m] from where an obstacle keeps a vertex
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A vertex that is led along.
+struct Led {
+    Vec3 by;  ///< in the frame [m]
+    bool is_held = false;
+};
+
+bool is_led(const Led& led) { return dot(led.by, led.by) > 0.0; }
+
+/// The vertices that something leads, and where.
+class Leads {
+public:
+    Leads(const Model& model, std::span<const float4> before, std::span<const float4> now,
+          double start, double end)
+        : model_(model), before_(before), now_(now) {
+        if (model.moving_pins) lead_by_pins();
+        for (const Obstacle& obstacle : model.scene.obstacles) {
+            const Frame from = obstacle.frame_at(start);
+            const Frame to = obstacle.frame_at(end);
+            if (!(from == to)) lead_by(obstacle, from, to);
+        }
+    }
+
+    bool is_any() const {
+        return std::ranges::any_of(led_, [](const Led& led) { return is_led(led); });
+    }
+
+    OutsideWork work(Vec3 gravity, double dt) const {
+        OutsideWork sum = of_vertices(gravity, dt);
+        for (const auto& family : model_.families) sum.work += of_elements(*family);
+        sum.doubt += 0.5 * std::abs(sum.work);
+        return sum;
+    }
+
+private:
+    /// lead_one(vertex): fills in where it is led, if it is.
+    template <class LeadOne>
+    void lead_all(const LeadOne& lead_one) {
+        led_.resize(now_.size());
+        for_each_block(model_.vertex_count(), [&](int /*block*/, int begin, int end) {
+            for (int v = begin; v < end; ++v) lead_one(at(v));
+        });
+    }
+
+    void lead_by_pins() {
+        lead_all([&](std::size_t v) {
+            if (now_[v].w != 0.0f) return;
+            led_[v] = {to_vec3(now_[v]) - to_vec3(before_[v]), true};
+        });
+    }
+
+    void lead_by(const Obstacle& obstacle, const Frame& from, const Frame& to) {
+        lead_all([&](std::size_t v) {
+            if (now_[v].w == 0.0f) return;
+            const Vec3 local = to.to_local(to_vec3(now_[v]));
+            if (distance_to_local(obstacle, local) > obstacle.thickness + kTouch) return;
+            led_[v] = {to_vec3(now_[v]) - from.to_world(local), false};
+        });
+    }
+
+    /// What is pushed is lifted, and may have been brought to the speed of what pushes it.
+    OutsideWork of_vertices(Vec3 gravity, double dt) const {
+        OutsideWork sum;
+        for (std::size_t v = 0; v < led_.size(); ++v) {
+            if (led_[v].is_held) continue;
+            const double mass = model_.masses[v];
+            const Vec3 speed = (1.0 / dt) * led_[v].by;
+            sum.work -= mass * dot(gravity, led_[v].by);
+            sum.doubt += mass * dot(speed, speed);
+        }
+        return sum;
+    }
+
+    double of_elements(const ElementFamily& family) const {
+        return sum_of_blocks(family.count(), [&](int begin, int end) {
+            double sum = 0.0;
+            for (int e = begin; e < end; ++e) sum += of_element(family, e);
+            return sum;
+        });
+    }
+
+    double of_element(const ElementFamily& family, int element) const {
+        const auto corners = family.corners(element);
+        if (std::ranges::none_of(corners, [&](int v) { return is_led(led_[at(v)]); })) return 0.0;
+        std::array<Vec3, kMaxCorners> first{}, last{};
+        family.gradient(element, family.positions_of(element, before_).data(), first.data());
+        family.gradient(element, family.positions_of(element, now_).data(), last.data());
+        double sum = 0.0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Led& led = led_[at(corners[k])];
+            // What touches an obstacle at the end need not have done so at the start.
+            const Vec3 force = led.is_held ? 0.5 * (first[k] + last[k]) : last[k];
+            sum += dot(force, led.by);
+        }
+        return sum;
+    }
+
+    const Model& model_;
+    std::span<const float4> before_, now_;
+    std::vector<Led> led_;  ///< [vertices]; empty: none
+};
+
+OutsideWork work_of_gravity(const Model& model, std::span<const float4> before,
+                            std::span<const float4> now, Vec3 change) {
+    OutsideWork sum;
+    if (change == Vec3{}) return sum;
+    sum.work = -0.5 * dot(change, mass_moment(model, before) + mass_moment(model, now));
+    const Vec3 way = mass_moment(model, now) - mass_moment(model, before);
+    sum.doubt = length(change) * length(way);
+    return sum;
+}
+
+}  // namespace
+
+OutsideWork outside_work(const Model& model, std::span<const float4> before,
+                         std::span<const float4> now, double start, double end) {
+    const Vec3 gravity = model.scene.gravity_at(end);
+    OutsideWork sum = work_of_gravity(model, before, now, gravity - model.scene.gravity_at(start));
+    const Leads leads(model, before, now, start, end);
+    if (!leads.is_any()) return sum;
+    const OutsideWork led = leads.work(gravity, end - start);
+    return {sum.work + led.work, sum.doubt + led.doubt};
+}
+
+}  // namespace weft

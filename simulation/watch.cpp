@@ -1,0 +1,64 @@
+#include "simulation/watch.h"
+
+namespace weft {
+
+namespace {
+
+Energies energies_of(const Model& model, double time) {
+    return measure_energies(model, model.positions->span(), model.velocities->span(), time);
+}
+
+Alarm alarm_of(const EnergyAlarm& alarm) {
+    return {alarm.is_explosion ? Alarm::Kind::kExplosion : Alarm::Kind::kDoubt, alarm.what, {}};
+}
+
+}  // namespace
+
+Watch::Watch(const Model& model, bool keeps_account, int threads)
+    : threads_(threads), keeps_account_(keeps_account), account_(model, energies_of(model, 0.0)) {}
+
+Watch::Look Watch::look(const Model& model, std::span<const float4> before, double start,
+                        double end) const {
+    Look look;
+    threads_.execute([&] { look = look_here(model, before, start, end); });
+    return look;
+}
+
+Watch::Look Watch::look_here(const Model& model, std::span<const float4> before, double start,
+                             double end) const {
+    const auto positions = model.positions->span();
+    Look look;
+    if (auto bad = find_non_finite(model)) {
+        look.alarm = {Alarm::Kind::kNoState, bad->what, bad->vertex};
+        return look;
+    }
+    look.strain = model.edges->strain(positions);
+    if (keeps_account_) {
+        look.entry = account_.with_frame(start, outside_work(model, before, positions, start, end),
+                                         energies_of(model, end));
+    }
+    if (auto bad = find_beyond_guard(model, look.strain)) {
+        look.alarm = {Alarm::Kind::kExplosion, bad->what, bad->vertex};
+    } else if (keeps_account_) {
+        const auto alarm = account_.look(look.entry, look.strain, reach_of(positions));
+        if (alarm) look.alarm = alarm_of(*alarm);
+    }
+    return look;
+}
+
+void Watch::accept(const Look& look, bool forgives) {
+    if (!keeps_account_) return;
+    account_.accept(look.entry);
+    if (forgives) account_.forgive();
+}
+
+void Watch::restart(const Model& model, double time,
+                    const std::optional<std::array<double, 3>>& saved) {
+    const Energies now = energies_of(model, time);
+    if (saved)
+        account_.restore(*saved, now);
+    else
+        account_ = EnergyAccount(model, now);
+}
+
+}  // namespace weft

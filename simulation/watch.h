@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "runtime/tbb/parallel.h"
+#include "simulation/energy_account.h"
+#include "simulation/state.h"
+
+namespace weft {
+
+/// What speaks against a state.
+struct Alarm {
+    enum class Kind {
+        kNoState,    ///< not finite: nothing can go on from here
+        kExplosion,  ///< beyond the scene's [guard], or energy that cannot be
+        kDoubt,      ///< energy from nowhere, as steps give that are solved too little
+    };
+    Kind kind;
+    std::string what;
+    std::optional<int> vertex;  ///< new order
+};
+
+/// Looks at every state between two frames: whether it is one, how far its edges are strained, and
+/// where its energy comes from.
+class Watch {
+public:
+    struct Look {
+        Strain strain;
+        EnergyAccount::Entry entry;
+        std::optional<Alarm> alarm;
+    };
+
+    /// keeps_account: false: only whether a state is one. threads: to do it with
+    Watch(const Model& model, bool keeps_account, int threads);
+
+    /// At the model's state, at `end` [s]; its frame began at `start`, with `before`.
+    Look look(const Model& model, std::span<const float4> before, double start, double end) const;
+    /// Goes on from a state that was looked at. forgives: what came from nowhere is there now
+    void accept(const Look& look, bool forgives);
+    const EnergyAccount& account() const { return account_; }
+
+    /// Goes on from another state, at a time [s], as its run's account stood there (none: anew).
+    void restart(const Model& model, double time,
+                 const std::optional<std::array<double, 3>>& saved = std::nullopt);
+
+private:
+    Look look_here(const Model& model, std::span<const float4> before, double start,
+                   double end) const;
+
+    HostThreads threads_;
+    bool keeps_account_;
+    EnergyAccount account_;
+};
+
+}  // namespace weft

@@ -1,0 +1,218 @@
+// Where the energy of a run comes from, and what is done where it comes from nowhere.
+
+#include <gtest/gtest.h>
+
+#include "runtime/error.h"
+#include "runtime/opencl/opencl_device.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "tests/simulation/run/physics.h"
+#include "tests/simulation/run/test_scenes.h"
+
+namespace weft::test {
+namespace {
+
+/// A stiff sheet in steps that are far too long for two iterations.
+const std::string kTooLong = R"(
+[scene]
+frames = 12
+dt = 0.016666667
+substeps = 1
+[solver]
+iterations = 2
+[[cloth]]
+name = "sheet"
+grid = { size = [1.0, 1.0], resolution = [40, 40] }
+density = 0.2
+stretch = { stiffness = 1.0e5 }
+damping = 0.1
+pins = { corners = ["x-z-", "x+z-"] }
+)";
+
+Simulation simulation_of(const Scene& scene, OnTrouble on_trouble,
+                         const std::string& devices = "cpu/1") {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = devices;
+    options.calibrate = false;
+    options.plan = PlanKind::kSingle;
+    options.on_trouble = on_trouble;
+    return {scene, options, warnings};
+}
+
+Scene too_long() { return parse_scene(kTooLong, "test.toml"); }
+
+TEST(Trouble, StopsInTheFrameAndSaysInWhichSubstep) {
+    Simulation simulation = simulation_of(too_long(), OnTrouble::kStop);
+    std::string hash;
+    std::string message;
+    try {
+        while (simulation.frame() < 12) {
+            hash = simulation.hash();
+            simulation.advance();
+        }
+    } catch (const RunError& error) {
+        message = error.what();
+    }
+    const std::string frame = std::to_string(simulation.frame());
+    EXPECT_LT(simulation.frame(), 12);
+    EXPECT_NE(message.find("frame " + frame + ", substep 0: energy from nowhere"),
+              std::string::npos)
+        << message;
+    EXPECT_EQ(simulation.hash(), hash) << "the state is that of the frame's start";
+}
+
+TEST(Trouble, IsReportedAndGoneOnWith) {
+    Simulation simulation = simulation_of(too_long(), OnTrouble::kReport);
+    while (simulation.frame() < 12) simulation.advance();
+    ASSERT_FALSE(simulation.troubles().empty());
+    EXPECT_NE(simulation.troubles()[0].what.find("energy from nowhere"), std::string::npos);
+
+    Simulation stopped = simulation_of(too_long(), OnTrouble::kStop);
+    EXPECT_THROW(while (stopped.frame() < 12) stopped.advance(), RunError);
+    EXPECT_LE(simulation.troubles()[0].frame, stopped.frame());
+}
+
+struct Halved {
+    std::string hash;
+    double strain = 0.0;
+    std::uint32_t substeps = 0;
+};
+
+Halved run_halving(const std::string& devices, int frames = 12) {
+    Simulation simulation = simulation_of(too_long(), OnTrouble::kHalve, devices);
+    FrameRecord frame;
+    while (simulation.frame() < frames) frame = simulation.advance();
+    EXPECT_FALSE(simulation.troubles().empty());
+    EXPECT_NE(simulation.troubles()[0].what.find("with 2 substeps"), std::string::npos);
+    return {simulation.hash(), frame.strain_rms, frame.substeps};
+}
+
+TEST(Trouble, IsMendedBySmallerStepsWithTheSameBitsOnEveryDevice) {
+    Simulation reporting = simulation_of(too_long(), OnTrouble::kReport);
+    FrameRecord last;
+    while (reporting.frame() < 12) last = reporting.advance();
+
+    const Halved halved = run_halving("cpu/1");
+    EXPECT_GT(halved.substeps, 1U);
+    EXPECT_LE(halved.substeps, 16U);
+    EXPECT_LT(halved.strain, 0.5 * last.strain_rms);
+    EXPECT_EQ(run_halving("cpu/2").hash, halved.hash);
+    if (opencl_devices().empty()) return;
+    EXPECT_EQ(run_halving("opencl:0/1").hash, halved.hash);
+    EXPECT_EQ(run_halving("cpu/1+opencl:0/1").hash, halved.hash);
+}
+
+TEST(Trouble, ARunGoesOnFromItsCheckpointWithItsSmallerSteps) {
+    const std::string whole = run_halving("cpu/1").hash;
+    Simulation first = simulation_of(too_long(), OnTrouble::kHalve);
+    while (first.frame() < 10) first.advance();
+    ASSERT_GT(first.model().scene.substeps, 1);
+
+    Simulation second = simulation_of(too_long(), OnTrouble::kHalve);
+    second.resume(first.checkpoint());
+    EXPECT_EQ(second.model().scene.substeps, first.model().scene.substeps);
+    while (second.frame() < 12) second.advance();
+    EXPECT_EQ(second.hash(), whole);
+}
+
+class EveryAccount : public EverySolver {
+protected:
+    /// Every frame's record; fails where something was wrong.
+    static std::vector<FrameRecord> run(const Scene& scene) {
+        Simulation simulation = simulation_of(scene, OnTrouble::kStop);
+        std::vector<FrameRecord> frames;
+        while (simulation.frame() < scene.frames) frames.push_back(simulation.advance());
+        EXPECT_TRUE(simulation.troubles().empty());
+        return frames;
+    }
+};
+
+double total(const FrameRecord& frame) {
+    double sum = frame.kinetic_energy + frame.gravity_energy;
+    for (const double energy : frame.energies) sum += energy;
+    return sum;
+}
+
+/// A sheet that hangs is lifted by its pins: what they do ends as height, or is lost.
+TEST_P(EveryAccount, BooksTheWorkOfPins) {
+    const auto frames = run(scene_of(R"(
+[scene]
+frames = 60
+dt = 0.016666667
+substeps = 20
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [9, 9] }
+rotate = [1.0, 0.0, 0.0, 90.0]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+damping = 2.0
+[cloth.pins]
+edges = ["z-"]
+motion = { velocity = [0.0, 0.5, 0.0] }
+)"));
+    const double lifted = frames.back().gravity_energy - frames[20].gravity_energy;
+    const double work = frames.back().work - frames[20].work;
+    EXPECT_GT(lifted, 0.4);
+    EXPECT_NEAR(work, lifted, 0.15 * lifted);
+    EXPECT_GT(frames.back().dissipated, -0.05 * frames.back().work);
+}
+
+/// The same by a table that rises below it.
+TEST_P(EveryAccount, BooksTheWorkOfObstacles) {
+    const auto frames = run(scene_of(R"(
+[scene]
+frames = 40
+dt = 0.016666667
+substeps = 10
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [9, 9] }
+translate = [0.0, 0.01, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+motion = { velocity = [0.0, 0.5, 0.0] }
+)"));
+    const double lifted = frames.back().gravity_energy - frames[10].gravity_energy;
+    EXPECT_GT(lifted, 0.2);
+    EXPECT_NEAR(frames.back().work - frames[10].work, lifted, 0.05 * lifted);
+}
+
+/// Gravity that turns upside down does work where it stands.
+TEST_P(EveryAccount, BooksTheWorkOfGravityThatChanges) {
+    Scene scene = scene_of(R"(
+[scene]
+frames = 30
+dt = 0.01
+substeps = 2
+gravity_keyframes = [[0.0, 0.0, -9.81, 0.0], [0.1, 0.0, -9.81, 0.0], [0.2, 0.0, 9.81, 0.0]]
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [5, 5] }
+translate = [0.0, 2.0, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+)");
+    for (const FrameRecord& frame : run(scene)) {
+        EXPECT_NEAR(frame.dissipated, 0.0, 0.02) << frame.frame;  // by steps of that length
+        EXPECT_NEAR(frame.work - total(frame), frame.dissipated + 0.2 * -9.81 * 2.0, 1e-4);
+    }
+}
+
+/// Until a seam is closed, the ends of a frame do not tell what it does.
+TEST(Account, IsNotKnownWhileSeamsClose) {
+    Scene scene = parse_scene(kSewn, "test.toml");
+    scene.seams.pop_back();  // the one that stays open
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    const double closed = scene.seams[0].time;
+    while (simulation.frame() < scene.frames) {
+        const bool was_open = simulation.time() < closed;
+        EXPECT_EQ(std::isnan(simulation.advance().dissipated), was_open);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryAccount, kMethods, name_of_method);
+
+}  // namespace
+}  // namespace weft::test
