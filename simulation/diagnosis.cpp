@@ -57,7 +57,7 @@ private:
         }
         // Only a substep's end is a state: before, positions may be far off for good reasons.
         const double end = begin_ + (substep + 1) * model_.h;
-        auto look = watch_.look(model_, start_.positions, begin_, end);
+        auto look = watch_.look(model_, start_, begin_, end);
         if (!look.alarm || look.alarm->kind == Alarm::Kind::kDoubt) return std::nullopt;
         return Finding{substep, &step_.tasks().back(), std::move(*look.alarm)};
     }
@@ -88,7 +88,8 @@ std::string text_of(int frame, const Finding& finding, const Model& model) {
 void diagnose_frame(int frame, const SimulationState& start, const Watch& watch, Model& model,
                     Solver& solver) {
     start.put(model, solver);
-    const auto finding = Search(frame, start, watch, model, solver).find();
+    Search search(frame, start, watch, model, solver);
+    const auto finding = search.find();
     start.put(model, solver);
     const std::string where =
         finding ? text_of(frame, *finding, model) : fmt::format("frame {}", frame);

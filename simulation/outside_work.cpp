@@ -41,10 +41,9 @@ public:
         return std::ranges::any_of(led_, [](const Led& led) { return is_led(led); });
     }
 
-    OutsideWork work(Vec3 gravity, double dt) const {
-        OutsideWork sum = of_vertices(gravity, dt);
-        for (const auto& family : model_.families) sum.work += of_elements(*family);
-        sum.doubt += 0.5 * std::abs(sum.work);
+    double work(Vec3 gravity) const {
+        double sum = of_vertices(gravity);
+        for (const auto& family : model_.families) sum += of_elements(*family);
         return sum;
     }
 
@@ -74,15 +73,11 @@ private:
         });
     }
 
-    /// What is pushed is lifted, and may have been brought to the speed of what pushes it.
-    OutsideWork of_vertices(Vec3 gravity, double dt) const {
-        OutsideWork sum;
+    /// What is pushed is lifted.
+    double of_vertices(Vec3 gravity) const {
+        double sum = 0.0;
         for (std::size_t v = 0; v < led_.size(); ++v) {
-            if (led_[v].is_held) continue;
-            const double mass = model_.masses[v];
-            const Vec3 speed = (1.0 / dt) * led_[v].by;
-            sum.work -= mass * dot(gravity, led_[v].by);
-            sum.doubt += mass * dot(speed, speed);
+            if (!led_[v].is_held) sum -= model_.masses[v] * dot(gravity, led_[v].by);
         }
         return sum;
     }
@@ -126,16 +121,51 @@ OutsideWork work_of_gravity(const Model& model, std::span<const float4> before,
     return sum;
 }
 
+Vec3 momentum(const Model& model, std::span<const float4> velocities) {
+    Vec3 sum;
+    for (std::size_t v = 0; v < velocities.size(); ++v) {
+        if ((*model.positions)[v].w > 0.0f) sum = sum + model.masses[v] * to_vec3(velocities[v]);
+    }
+    return sum;
+}
+
+/// [m/s] of the fastest point of an obstacle.
+double fastest_obstacle(const Scene& scene, double start, double end) {
+    double most = 0.0;
+    for (const Obstacle& o : scene.obstacles) {
+        most = std::max(most, farthest_move(o.frame_at(start), o.frame_at(end), o.half_size));
+    }
+    return most / (end - start);
+}
+
+/// A blow gives momentum, and at most so much times the obstacle's speed of energy, also to what no
+/// longer touches it at the frame's end.
+double doubt_of_blows(const Model& model, const SimulationState& before, double start, double end) {
+    const double speed = fastest_obstacle(model.scene, start, end);
+    if (speed == 0.0) return 0.0;
+    double mass = 0.0;
+    for (std::size_t v = 0; v < model.masses.size(); ++v) {
+        if ((*model.positions)[v].w > 0.0f) mass += model.masses[v];
+    }
+    const Vec3 fallen = mass * (end - start) * model.scene.gravity_at(end);
+    const Vec3 gained =
+        momentum(model, model.velocities->span()) - momentum(model, before.velocities);
+    return speed * length(gained - fallen);
+}
+
 }  // namespace
 
-OutsideWork outside_work(const Model& model, std::span<const float4> before,
-                         std::span<const float4> now, double start, double end) {
+OutsideWork outside_work(const Model& model, const SimulationState& before, double start,
+                         double end) {
+    const auto now = model.positions->span();
     const Vec3 gravity = model.scene.gravity_at(end);
-    OutsideWork sum = work_of_gravity(model, before, now, gravity - model.scene.gravity_at(start));
-    const Leads leads(model, before, now, start, end);
-    if (!leads.is_any()) return sum;
-    const OutsideWork led = leads.work(gravity, end - start);
-    return {sum.work + led.work, sum.doubt + led.doubt};
+    OutsideWork sum =
+        work_of_gravity(model, before.positions, now, gravity - model.scene.gravity_at(start));
+    const Leads leads(model, before.positions, now, start, end);
+    const double led = leads.is_any() ? leads.work(gravity) : 0.0;
+    sum.work += led;
+    sum.doubt += 0.5 * std::abs(led) + doubt_of_blows(model, before, start, end);
+    return sum;
 }
 
 }  // namespace weft

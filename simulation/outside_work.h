@@ -1,9 +1,6 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "simulation/model/model.h"
+#include "simulation/state.h"
 
 namespace weft {
 
@@ -16,8 +13,8 @@ struct OutsideWork {
 
 /// By gravity that changes, by pins that move, and by obstacles that move and touch something at
 /// the frame's end. Forces are those that hold against the elements (and gravity) at both ends.
-/// before, now: positions at the times start and end [s], in the new order
-OutsideWork outside_work(const Model& model, std::span<const float4> before,
-                         std::span<const float4> now, double start, double end);
+/// model: at `end` [s]; before: at `start`
+OutsideWork outside_work(const Model& model, const SimulationState& before, double start,
+                         double end);
 
 }  // namespace weft

@@ -353,7 +353,7 @@ void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
 /// Looks at the frame that has just run, and writes down what there is to see.
 bool Simulation::accepts(FrameRecord& frame) {
     const double end = time() + model_->scene.dt;
-    const Watch::Look look = watch_->look(*model_, start_->positions, time(), end);
+    const Watch::Look look = watch_->look(*model_, *start_, time(), end);
     if (look.alarm && !goes_on_with(*look.alarm)) return false;
     watch_->accept(look, look.alarm.has_value());
     record(look, frame);
@@ -370,10 +370,9 @@ bool Simulation::goes_on_with(const Alarm& alarm) {
         restore(*start_);
         diagnose_frame(frame_, *start_, *watch_, *model_, *solver_);
     }
-    tell(alarm.what +
-         "; the steps are not solved far enough, and what is seen is not believable: "
-         "more substeps or iterations, or another solver, may help "
-         "(docs/stability.md)");
+    tell(alarm,
+         "the steps are not solved far enough, and what is seen is not believable: more substeps "
+         "or iterations, or another solver, may help (docs/stability.md)");
     return true;
 }
 
@@ -385,15 +384,15 @@ bool Simulation::halve(const Alarm& alarm) {
     set_substeps(substeps);
     start_ = snapshot();
     snapshot_.reset();
-    tell(fmt::format("{}; done again, and all that follows, with {} substeps", alarm.what,
-                     substeps));
+    tell(alarm, fmt::format("done again, and all that follows, with {} substeps", substeps));
     return true;
 }
 
-void Simulation::tell(std::string what) {
+void Simulation::tell(const Alarm& alarm, const std::string& what) {
     if (troubles_.size() >= kMostTroubles) return;
-    if (troubles_.size() + 1 == kMostTroubles) what += "; what comes after this is not told";
-    troubles_.push_back({frame_, std::move(what)});
+    std::string text = fmt::format("{}; {}", alarm.what, what);
+    if (troubles_.size() + 1 == kMostTroubles) text += "; what comes after this is not told";
+    troubles_.push_back({frame_, text, alarm.kind != Alarm::Kind::kDoubt});
 }
 
 RunDescription Simulation::describe() const { return describe_run(*model_, *solver_, devices_); }

@@ -65,6 +65,7 @@ struct LostDevice {
 struct Trouble {
     int frame = 0;
     std::string what;
+    bool is_explosion = false;  ///< else it is only to be doubted
 };
 
 /// A scene on devices, frame by frame. The results do not depend on the devices or on the plans.
@@ -152,7 +153,7 @@ private:
     bool accepts(FrameRecord& frame);
     bool goes_on_with(const Alarm& alarm);
     bool halve(const Alarm& alarm);
-    void tell(std::string what);
+    void tell(const Alarm& alarm, const std::string& what);
 
     SimulationOptions options_;
     std::vector<std::unique_ptr<Device>> devices_;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "simulation/energy_account.h"
 #include "simulation/families/convert.h"
 
 namespace weft {
@@ -68,6 +70,21 @@ void warn_of_turns(const Model& model, const Obstacle& obstacle, Warnings& warni
         static_cast<long>(std::ceil(turn.rate * scene.dt / kLargestTurn - 1e-6))));
 }
 
+/// Positions are single precision: what is far from the origin and fine is hardly there.
+void warn_of_rounding(const Model& model, Warnings& warnings) {
+    constexpr double kVisible = 0.01;
+    const double reach = reach_of(model.positions->span());
+    const double rounding =
+        0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+    const double shortest = model.edges->shortest();
+    if (shortest <= 0.0 || rounding < kVisible * shortest) return;
+    warnings.push_back(fmt::format(
+        "coordinates of {:.3g} m are rounded to {:.1g} m, {:.2g} % of the shortest edge ({:.3g} "
+        "m): shapes that fine are not kept; bring the scene nearer to the origin, or leave such "
+        "edges out",
+        reach, rounding, 100.0 * rounding / shortest, shortest));
+}
+
 }  // namespace
 
 double energy_inside_obstacles(const Model& model) {
@@ -81,6 +98,7 @@ double energy_inside_obstacles(const Model& model) {
 }
 
 void warn_of_start(const Model& model, Warnings& warnings) {
+    warn_of_rounding(model, warnings);
     for (const Obstacle& obstacle : model.scene.obstacles) {
         warn_of_inside(model, obstacle, warnings);
         warn_of_turns(model, obstacle, warnings);

@@ -17,14 +17,14 @@ Alarm alarm_of(const EnergyAlarm& alarm) {
 Watch::Watch(const Model& model, bool keeps_account, int threads)
     : threads_(threads), keeps_account_(keeps_account), account_(model, energies_of(model, 0.0)) {}
 
-Watch::Look Watch::look(const Model& model, std::span<const float4> before, double start,
+Watch::Look Watch::look(const Model& model, const SimulationState& before, double start,
                         double end) const {
     Look look;
     threads_.execute([&] { look = look_here(model, before, start, end); });
     return look;
 }
 
-Watch::Look Watch::look_here(const Model& model, std::span<const float4> before, double start,
+Watch::Look Watch::look_here(const Model& model, const SimulationState& before, double start,
                              double end) const {
     const auto positions = model.positions->span();
     Look look;
@@ -34,7 +34,7 @@ Watch::Look Watch::look_here(const Model& model, std::span<const float4> before,
     }
     look.strain = model.edges->strain(positions);
     if (keeps_account_) {
-        look.entry = account_.with_frame(start, outside_work(model, before, positions, start, end),
+        look.entry = account_.with_frame(start, outside_work(model, before, start, end),
                                          energies_of(model, end));
     }
     if (auto bad = find_beyond_guard(model, look.strain)) {

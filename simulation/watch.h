@@ -35,7 +35,7 @@ public:
     Watch(const Model& model, bool keeps_account, int threads);
 
     /// At the model's state, at `end` [s]; its frame began at `start`, with `before`.
-    Look look(const Model& model, std::span<const float4> before, double start, double end) const;
+    Look look(const Model& model, const SimulationState& before, double start, double end) const;
     /// Goes on from a state that was looked at. forgives: what came from nowhere is there now
     void accept(const Look& look, bool forgives);
     const EnergyAccount& account() const { return account_; }
@@ -45,7 +45,7 @@ public:
                  const std::optional<std::array<double, 3>>& saved = std::nullopt);
 
 private:
-    Look look_here(const Model& model, std::span<const float4> before, double start,
+    Look look_here(const Model& model, const SimulationState& before, double start,
                    double end) const;
 
     HostThreads threads_;

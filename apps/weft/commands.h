@@ -17,6 +17,7 @@ void add_inspect_command(CLI::App& app);
 void add_plan_command(CLI::App& app);
 void add_replay_command(CLI::App& app);
 void add_run_command(CLI::App& app);
+void add_stability_command(CLI::App& app);
 void add_trace_command(CLI::App& app);
 
 // Of `weft trace`.

@@ -24,6 +24,7 @@ void add_commands(CLI::App& app) {
     add_run_command(app);
     add_batch_command(app);
     add_error_command(app);
+    add_stability_command(app);
     add_inspect_command(app);
     add_compare_command(app);
     add_devices_command(app);

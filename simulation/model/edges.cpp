@@ -32,6 +32,11 @@ Edges::Edges(std::span<const std::unique_ptr<ElementFamily>> families) {
     std::erase_if(edges_, [](const Edge& edge) { return edge.rest <= 0.0; });
 }
 
+double Edges::shortest() const {
+    const auto least = std::ranges::min_element(edges_, {}, &Edge::rest);
+    return least == edges_.end() ? 0.0 : least->rest;
+}
+
 Strain Edges::strain(std::span<const float4> positions) const {
     struct Block {
         double squares = 0.0;

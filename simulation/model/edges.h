@@ -27,6 +27,8 @@ public:
     /// The worst edge, if it is stretched to more than 1 + `most` times its length.
     std::optional<BadState> find_overstretched(std::span<const float4> positions,
                                                const Strain& strain, double most) const;
+    /// At rest [m]; 0: there is none.
+    double shortest() const;
     int count() const { return static_cast<int>(edges_.size()); }
 
 private:

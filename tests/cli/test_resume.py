@@ -9,7 +9,7 @@ import pytest
 from weft_program import SHEET, expect_error, start_weft, wait_for_frames, weft
 
 FRAMES = 40
-SCENE = SHEET.replace("frames = 3", f"frames = {FRAMES}").replace("substeps = 2", "substeps = 100")
+SCENE = SHEET.replace("frames = 3", f"frames = {FRAMES}").replace("substeps = 2", "substeps = 400")
 
 
 @pytest.fixture
