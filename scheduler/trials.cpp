@@ -14,7 +14,7 @@ std::optional<std::uint32_t> Trials::next(std::uint32_t chosen, std::span<const 
     if (running_ && (alternative_ == chosen || !std::isfinite(expected[alternative_]))) {
         running_ = false;  // nothing is left to find out
     }
-    for (std::uint32_t a = 0; a < expected.size() && !running_; ++a) {
+    for (auto a = static_cast<std::uint32_t>(expected.size()); a-- > 0 && !running_;) {
         if (a == chosen || !std::isfinite(expected[a])) continue;
         const double price = kShortest * std::max(0.0, expected[a] - expected[chosen]);
         if (probes_.due(a, price)) begin(a);

@@ -27,7 +27,8 @@ public:
                     const TrialSettings& settings = {})
         : settings_(settings), probes_(alternatives, probes) {}
 
-    /// The alternative to try in the next frame, if any. Call once per frame.
+    /// The alternative to try in the next frame, if any; of several that are due, the last one: a
+    /// trial of many devices tells more than one of one. Call once per frame.
     /// chosen    what would be done otherwise
     /// expected  [alternative] seconds of a frame; infinite where there is nothing to try
     std::optional<std::uint32_t> next(std::uint32_t chosen, std::span<const double> expected);

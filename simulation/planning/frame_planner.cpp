@@ -17,6 +17,10 @@ constexpr double kImpossible = std::numeric_limits<double>::infinity();
 /// speaks against is tried all the same unless it takes more than half as long again.
 constexpr scheduler::ProbeSettings kProbes{.start_frames = 1.0};
 
+/// Frames in a row of what is chosen, awake, before anything else is tried: one may be a
+/// disturbance.
+constexpr int kFramesToSee = 2;
+
 /// Whether another device of another team is the same one, with more units: alone, it is better.
 bool is_part_of_another(const std::vector<Device*>& devices, std::size_t d) {
     const DeviceInfo& own = devices[d]->info();
@@ -108,10 +112,12 @@ std::uint32_t FramePlanner::choose() {
     return feedback_.choice().choose(choice);
 }
 
-/// The plan to try instead of the chosen one, if it is time for that.
+/// The plan to try instead of the chosen one, if it is time for that. Not before it has been seen
+/// what the chosen one takes awake: a trial that has to beat a mere forecast is lost in a busy
+/// moment.
 std::uint32_t FramePlanner::or_trial(std::uint32_t chosen) {
     to_beat_ = expected_[chosen];
-    if (last_instances_ == 0) return chosen;  // what a frame takes is not known yet
+    if (!trials_.running() && frames_seen_ < kFramesToSee) return chosen;
     return trials_.next(chosen, expected_).value_or(chosen);
 }
 
@@ -157,6 +163,7 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
     awake_ = plan.devices();
     where_ = plan.strip_devices();
     last_instances_ = instances;
+    frames_seen_ = plan.waking || trials_.running() ? 0 : frames_seen_ + 1;
     for (std::uint32_t a = 0; a < candidates_.count(); ++a) {
         if ((candidates_.devices_of(a) & ~awake_) == 0) trials_.used(a);
     }

@@ -50,6 +50,7 @@ private:
     unsigned awake_ = 0;      ///< one bit per device that took part in the last frame
     std::vector<int> where_;  ///< [strip] the device that has its data
     int last_instances_ = 0;  ///< substeps of the last frame; 0: there was none
+    int frames_seen_ = 0;     ///< in a row that tell what the chosen alternative takes
     double to_beat_ = 0.0;    ///< what the chosen alternative is expected to take a frame [s]
     std::vector<double> predicted_;  ///< [alternative] of a substep
     std::vector<double> choosable_;  ///< those of them that can be chosen without a trial

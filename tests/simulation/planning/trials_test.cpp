@@ -60,6 +60,20 @@ TEST(PlannerTrials, RememberedCostsAreNoVerdict) {
     }
 }
 
+/// All devices become slow together right after the start. The third one, which calibration has
+/// seen drowsy only, is the fastest: a trial that had to beat the mixture's forecast would be lost.
+TEST(PlannerTrials, HaveToBeatWhatWasMeasured) {
+    const std::vector<VirtualMachine::Speed> speeds{
+        {2e-6, 20e-9}, {2e-6, 20e-9}, {2e-6, 9e-9, {}, 1.5}};
+    Planned p(kAcross, kAlong, speeds, kLatency, PlanKind::kAuto, {0, 0, 1});
+    for (VirtualMachine::Speed& speed : p.machine.speeds) {
+        speed.fixed *= 4.0;
+        speed.per_item *= 4.0;
+    }
+    p.machine.latency *= 4.0;
+    EXPECT_EQ(p.advance(8).division.devices(), std::vector{2});
+}
+
 /// A third device that has the cores of the other two.
 TEST(PlannerTrials, TeamsTakeTurnsAndTheFasterOneWorks) {
     for (const double alone : {7e-9, 10e-9, 14e-9}) {
