@@ -18,6 +18,7 @@ die() { printf 'bundle: error: %s\n' "$*" >&2; exit 1; }
 
 # What is linked to and never called (unused_library.sh says why).
 unused="libcurl.so.4 libcrypto.so.3 libxml2.so.2 libz3.so.4 libedit.so.2
+        libbrotlidec.so.1 libzstd.so.1 libjansson.so.4
         libX11.so.6 libXext.so.6 libXrender.so.1 libxcb.so.1 libxcb-shm.so.0 libxcb-render.so.0"
 glibc="ld-linux-x86-64.so.2 libc.so.6 libm.so.6 libmvec.so.1 libpthread.so.0 libdl.so.2 librt.so.1 libresolv.so.2"
 gcc="libstdc++.so.6 libgcc_s.so.1"

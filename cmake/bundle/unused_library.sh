@@ -2,7 +2,7 @@
 # unused_library.sh LIBRARY OUT USER...: a library that can stand in for LIBRARY where its functions are
 # never called: each function that a USER names ends the program with a message. HDF5 links to a whole
 # network stack for files in a cloud, LLVM to a theorem prover and to an XML parser with the world's
-# alphabets for Windows' manifests, cairo to a window system: half of the archive, for nothing. Data that
+# alphabets for Windows' manifests, cairo to a window system: a third of the archive, for nothing. Data that
 # a USER names is there and zero.
 set -euo pipefail
 

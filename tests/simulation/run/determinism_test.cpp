@@ -40,11 +40,11 @@ const TestScene kScenes[] = {
     {"SosdSewn", kSewn, Method::kSosd, "3a597486338ef4b32e92494739bc0f2d"},
     {"SosdSpringsOnly", kSpringsOnly, Method::kSosd, "00dfd70c45689a281240dc02e561cdee"},
     {"SosdWoven", kWoven, Method::kSosd, "8f4158e05daf8fde70339ca7f4cbaefc"},
-    {"JpgdEverything", kEverything, Method::kJpgd, "9cc6cd28f4f98f4183f5af399ff90d4f"},
-    {"JpgdSolids", kSolids, Method::kJpgd, "2eff27821aa36236aa1f7929feebef52"},
-    {"JpgdSewn", kSewn, Method::kJpgd, "29a532d0429962e3af6782a14f6ce9df"},
-    {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "a13e1511b92b2af4ffe5a76ee0a6380c"},
-    {"JpgdWoven", kWoven, Method::kJpgd, "ab96e64dc07efc4835bfc6ecf0b29142"},
+    {"JpgdEverything", kEverything, Method::kJpgd, "3871743891c82635cbe403e2dd1cf9cf"},
+    {"JpgdSolids", kSolids, Method::kJpgd, "4c43707e7a0b96252a7ed6c18df6662a"},
+    {"JpgdSewn", kSewn, Method::kJpgd, "dd0359d5ad943f6c88704b7b46e78527"},
+    {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "b5e1dd06c0d5d8291ed21db2e9ebf69d"},
+    {"JpgdWoven", kWoven, Method::kJpgd, "c24b65155926a940791870c2af96d7e9"},
 };
 
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {
