@@ -47,7 +47,7 @@ simulation/mesh      runtime|simulation/mesh
 simulation/topology  scheduler/assert.h|runtime|simulation/topology
 simulation/scene     runtime|simulation/(mesh|scene|element_families.h)
 simulation/bodies    runtime|simulation/(mesh|scene|bodies)
-simulation/families  kernels|runtime|simulation/(mesh|scene|bodies|topology|families|element_families.h)
+simulation/families  kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|bodies|topology|families|element_families.h)
 simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
 simulation/solver    kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|topology|families|model|solver)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|reference)

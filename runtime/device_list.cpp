@@ -10,6 +10,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/opencl/probe.h"
 #include "runtime/tbb/cpu_device.h"
+#include "scheduler/assert.h"
 
 namespace weft {
 
@@ -182,14 +183,19 @@ int find_described(const Part& part, const std::vector<OpenClDeviceSummary>& dev
                std::string("; there is ") + there);
 }
 
+std::string what_may_help() {
+    const auto troubles = opencl_troubles();
+    return troubles.empty() ? "(is a driver such as pocl-opencl-icd installed?)"
+                            : "(" + troubles.front() + ")";
+}
+
 /// Finds the devices that the parts mean.
 void find_devices(std::vector<Part>& parts) {
     for (Part& part : parts) {
         if (part.is_cpu) continue;
         const auto devices = opencl_devices();
         if (devices.empty()) {
-            refuse(part.text,
-                   "no OpenCL platform was found (is a driver such as pocl-opencl-icd installed?)");
+            refuse(part.text, "no OpenCL platform was found " + what_may_help());
         }
         if (part.is_gpu || !part.name.empty())
             part.index = find_described(part, devices);
@@ -282,6 +288,7 @@ private:
     std::unique_ptr<Device> open_cpu(int threads) {
         std::vector<int> cores;
         if (pins_) {
+            WEFT_ASSERT(static_cast<std::size_t>(threads) <= free_cores_.size());
             cores.assign(free_cores_.begin(), free_cores_.begin() + threads);
             free_cores_.erase(free_cores_.begin(), free_cores_.begin() + threads);
         }
@@ -290,6 +297,7 @@ private:
 
     std::unique_ptr<Device> next_opencl(int index) {
         auto& list = opened_[index];
+        WEFT_ASSERT(!list.empty());
         std::unique_ptr<Device> device = std::move(list.front());
         list.erase(list.begin());
         return device;
@@ -346,7 +354,7 @@ std::vector<std::string> available_devices() {
 }
 
 std::string hybrid_devices() {
-    const auto devices = probe_opencl_devices();
+    const auto& devices = probe_opencl().devices;
     const int cores = static_cast<int>(usable_cores().size());
     if (devices.empty()) return "cpu";
     const int best = best_of(devices);

@@ -71,10 +71,10 @@ private:
         return plan_.placements[static_cast<std::size_t>(task)];
     }
     int device_of(int task) const { return static_cast<int>(placement(task).processor); }
-    /// The memory that a device works in: the host's (0), or its own.
-    int memory_of(int device) const {
+    /// The memory that a device works in.
+    Memory memory_of(int device) const {
         const auto model = executor_.devices_[static_cast<std::size_t>(device)]->info().memory;
-        return model == MemoryModel::kHost ? 0 : device + 1;
+        return model == MemoryModel::kHost ? Memory::host() : Memory::of_device(device);
     }
     DeviceStream& stream(int device) {
         at_ = device;
@@ -98,6 +98,7 @@ private:
         for (const int from : carried_[static_cast<std::size_t>(number)]) add_wait(previous_, from);
         if (!executor_.one_memory_) bring_all(task, device, instance, number);
 
+        WEFT_ASSERT(std::ranges::find(waits_, nullptr) == waits_.end());
         Completion* done = stream(device).submit({&task, number, instance, waits_});
         current_[static_cast<std::size_t>(number)] = done;
         if (executor_.one_memory_) return;
@@ -121,20 +122,19 @@ private:
 
     /// Copies what the device does not have yet, through the host where it must.
     void bring(const Access& access, int device, int instance, int task) {
-        const int memory = memory_of(device);
+        const Memory memory = memory_of(device);
         for (const auto& missing : executor_.memory_.missing(access, memory)) {
             const ElementSpan span = elements_of(access, missing.interval);
             if (span.begin == span.end) continue;  // strips without an element
             const std::uint64_t bytes = (span.end - span.begin) * access.buffer->element_size();
-            Copy copy{{instance, task, missing.source - 1, device, bytes}, {}};
+            WEFT_ASSERT(missing.source != memory);
+            const int from = missing.source.is_host() ? host_device() : missing.source.device();
+            Copy copy{{instance, task, from, device, bytes}, {}};
             Completion* arrival = missing.made_by;
-            if (missing.source != 0) {
-                arrival =
-                    move(access, missing.interval, span, missing.source - 1, 0, arrival, copy);
-            } else {
-                copy.record.from = host_device();
+            if (!missing.source.is_host()) {
+                arrival = move(access, missing.interval, span, from, Memory::host(), arrival, copy);
             }
-            if (memory != 0) {
+            if (!memory.is_host()) {
                 arrival = move(access, missing.interval, span, device, memory, arrival, copy);
             }
             copies_.push_back(std::move(copy));
@@ -143,11 +143,12 @@ private:
 
     /// One hop between the host's memory and that of `owner`, to `memory`.
     Completion* move(const Access& access, Interval interval, const ElementSpan& span, int owner,
-                     int memory, Completion* after, Copy& copy) {
+                     Memory memory, Completion* after, Copy& copy) {
+        WEFT_ASSERT(!memory_of(owner).is_host());
         const std::vector<Completion*> waits(after == nullptr ? 0 : 1, after);
         DeviceStream& s = stream(owner);
-        Completion* arrival = memory == 0 ? s.to_host(*access.buffer, span, waits)
-                                          : s.to_device(*access.buffer, span, waits);
+        Completion* arrival = memory.is_host() ? s.to_host(*access.buffer, span, waits)
+                                               : s.to_device(*access.buffer, span, waits);
         executor_.memory_.arrived(access, interval, memory, arrival);
         copy.hops.emplace_back(owner, hop_count_[static_cast<std::size_t>(owner)]++);
         return arrival;
@@ -156,7 +157,7 @@ private:
     /// The device that works in the host's memory.
     int host_device() const {
         int device = 0;
-        while (memory_of(device) != 0) ++device;
+        while (!memory_of(device).is_host()) ++device;
         return device;
     }
 
@@ -178,6 +179,7 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
 Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies,
                    double epoch)
     : devices_(std::move(devices)), epoch_(epoch) {
+    WEFT_ASSERT(!devices_.empty());
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
         one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
@@ -207,6 +209,7 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
 
     RunTimes times;
     times.start = clock();
+    WEFT_ASSERT(instances > 0 && first_instance >= 0);
     Run run(*this, step, plan);
     std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
     for (int i = 0; i < instances; ++i) {
@@ -214,7 +217,7 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
             run.submit(first_instance + i);
         } catch (const RunError& error) {
             drain();
-            throw DeviceLost(run.at(), error.what());
+            throw DeviceLost(ActiveDevice{run.at()}, error.what());
         }
         // Last the one whose core submits: it takes that core.
         for (std::size_t d = 0; d < streams_.size(); ++d) {
@@ -240,7 +243,7 @@ void Executor::on(std::size_t device, Call call) {
         call();
     } catch (const RunError& error) {
         drain();
-        throw DeviceLost(static_cast<int>(device), error.what());
+        throw DeviceLost(ActiveDevice{static_cast<int>(device)}, error.what());
     }
 }
 
@@ -280,9 +283,9 @@ void Executor::fetch(BufferStorage& buffer) {
     for (const auto& [access, missing] : memory_.missing_at_host(buffer)) {
         const ElementSpan span = elements_of(access, missing.interval);
         if (span.begin == span.end) continue;
-        const auto source = static_cast<std::size_t>(missing.source - 1);
+        const auto source = static_cast<std::size_t>(missing.source.device());
         on(source, [&] { streams_[source]->to_host(buffer, span, {})->wait(); });
-        memory_.arrived(access, missing.interval, 0, nullptr);
+        memory_.arrived(access, missing.interval, Memory::host(), nullptr);
     }
 }
 

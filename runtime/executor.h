@@ -31,12 +31,15 @@ struct RunTimes {
     std::vector<CopyRecord> copies;
 };
 
+/// A device by its number in an executor. The run counts all that there ever were.
+enum class ActiveDevice : int {};
+
 /// A device failed for good; the others have ended what they had to do.
 class DeviceLost : public RunError {
 public:
-    DeviceLost(int lost, const std::string& what) : RunError(what), device(lost) {}
+    DeviceLost(ActiveDevice lost, const std::string& what) : RunError(what), device(lost) {}
 
-    const int device;  ///< its number in the executor
+    const ActiveDevice device;
 };
 
 /// Runs plans: every device works through its part of the tasks, as Plan::order has them, as soon

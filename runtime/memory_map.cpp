@@ -2,7 +2,22 @@
 
 #include <algorithm>
 
+#include "scheduler/assert.h"
+
 namespace weft {
+
+bool MemoryMap::is_held(const Part& part, Memory memory) {
+    return std::ranges::find(part.holders, memory, &Holder::memory) != part.holders.end();
+}
+
+bool MemoryMap::are_disjoint_and_ascending(const std::vector<Part>& parts) {
+    int end = 0;
+    return std::ranges::all_of(parts, [&](const Part& part) {
+        const bool follows = end <= part.interval.begin && part.interval.begin < part.interval.end;
+        end = part.interval.end;
+        return follows;
+    });
+}
 
 MemoryMap::Key MemoryMap::key_of(const Access& access) {
     return {access.buffer, access.segments == nullptr ? -1 : access.segments->first};
@@ -21,7 +36,7 @@ void MemoryMap::cut(std::vector<Part>& parts, Interval interval) {
     }
 }
 
-std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, int memory) const {
+std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, Memory memory) const {
     std::vector<Missing> result;
     const auto entry = entries_.find(key_of(access));
     if (entry == entries_.end()) return result;
@@ -29,10 +44,8 @@ std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, int mem
         const Interval common{std::max(part.interval.begin, access.begin),
                               std::min(part.interval.end, access.end)};
         if (common.begin >= common.end) continue;
-        const auto here =
-            std::find_if(part.holders.begin(), part.holders.end(),
-                         [&](const Holder& holder) { return holder.memory == memory; });
-        if (here != part.holders.end()) continue;
+        if (is_held(part, memory)) continue;
+        WEFT_ASSERT(!part.holders.empty());
         // The host first: it is one copy away, other devices are two.
         const auto source =
             std::min_element(part.holders.begin(), part.holders.end(),
@@ -42,7 +55,7 @@ std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, int mem
     return result;
 }
 
-std::vector<Completion*> MemoryMap::arrivals(const Access& access, int memory) const {
+std::vector<Completion*> MemoryMap::arrivals(const Access& access, Memory memory) const {
     std::vector<Completion*> result;
     const auto entry = entries_.find(key_of(access));
     if (entry == entries_.end()) return result;
@@ -56,17 +69,19 @@ std::vector<Completion*> MemoryMap::arrivals(const Access& access, int memory) c
     return result;
 }
 
-void MemoryMap::arrived(const Access& access, Interval interval, int memory, Completion* arrival) {
+void MemoryMap::arrived(const Access& access, Interval interval, Memory memory,
+                        Completion* arrival) {
     std::vector<Part>& parts = entries_[key_of(access)].parts;
     cut(parts, interval);
     for (Part& part : parts) {
         if (part.interval.begin >= interval.begin && part.interval.end <= interval.end) {
+            WEFT_ASSERT(!is_held(part, memory));
             part.holders.push_back({memory, arrival, true});
         }
     }
 }
 
-void MemoryMap::written(const Access& access, int memory, Completion* task) {
+void MemoryMap::written(const Access& access, Memory memory, Completion* task) {
     Entry& entry = entries_[key_of(access)];
     entry.segments = access.segments;
     const Interval interval{access.begin, access.end};
@@ -78,6 +93,7 @@ void MemoryMap::written(const Access& access, int memory, Completion* task) {
         return part.interval.begin >= interval.end;
     });
     entry.parts.insert(behind, {interval, {{memory, task, false}}});
+    WEFT_ASSERT(are_disjoint_and_ascending(entry.parts));
 }
 
 void MemoryMap::forget(const BufferStorage& buffer) {
@@ -99,7 +115,7 @@ std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
         if (key.first != &buffer) continue;
         for (const Part& part : entry.parts) {
             const Access access{key.first, entry.segments, part.interval.begin, part.interval.end};
-            for (const Missing& missing : this->missing(access, 0))
+            for (const Missing& missing : this->missing(access, Memory::host()))
                 result.emplace_back(access, missing);
         }
     }
@@ -107,6 +123,7 @@ std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
 }
 
 ElementSpan elements_of(const Access& access, Interval interval) {
+    WEFT_ASSERT(interval.begin <= interval.end);
     const Segments* s = access.segments;
     return {static_cast<std::size_t>(s == nullptr ? interval.begin : s->item(interval.begin)),
             static_cast<std::size_t>(s == nullptr ? interval.end : s->item(interval.end))};

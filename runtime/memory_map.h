@@ -15,25 +15,44 @@ struct Interval {
     int end = 0;
 };
 
+/// A memory that devices work in: the host's, or a device's own. A type, since these numbers meet
+/// those of devices.
+class Memory {
+public:
+    static constexpr Memory host() { return Memory(0); }
+    /// That of a device that does not work in the host's; device: its number in the executor
+    static constexpr Memory of_device(int device) { return Memory(device + 1); }
+
+    constexpr bool is_host() const { return number_ == 0; }
+    /// Not of the host's.
+    constexpr int device() const { return number_ - 1; }
+    /// The host's is the least.
+    friend constexpr auto operator<=>(const Memory&, const Memory&) = default;
+
+private:
+    explicit constexpr Memory(int number) : number_(number) {}
+    int number_;
+};
+
 /// Which of the memories holds the current data of which part of which buffer (as caches do:
-/// modified, shared, invalid). Memory 0 is the host's. What is not noted is current everywhere.
+/// modified, shared, invalid). What is not noted is current everywhere.
 class MemoryMap {
 public:
     /// A part that has to be copied, and the work that made its data.
     struct Missing {
         Interval interval;
-        int source = 0;                 ///< memory
+        Memory source = Memory::host();
         Completion* made_by = nullptr;  ///< null: long done
     };
 
     /// What of an access is not current in `memory`. Both reads and updates read.
-    std::vector<Missing> missing(const Access& access, int memory) const;
+    std::vector<Missing> missing(const Access& access, Memory memory) const;
     /// Copies into `memory`, perhaps still under way, that brought parts of the access.
-    std::vector<Completion*> arrivals(const Access& access, int memory) const;
+    std::vector<Completion*> arrivals(const Access& access, Memory memory) const;
     /// The data of the missing part are in `memory` as well once `arrival` is done.
-    void arrived(const Access& access, Interval interval, int memory, Completion* arrival);
+    void arrived(const Access& access, Interval interval, Memory memory, Completion* arrival);
     /// A task on `memory` writes this: it is current there alone.
-    void written(const Access& access, int memory, Completion* task);
+    void written(const Access& access, Memory memory, Completion* task);
     /// The buffer is current everywhere again.
     void forget(const BufferStorage& buffer);
     /// Forgets completions: everything that was under way is done.
@@ -44,7 +63,7 @@ public:
 
 private:
     struct Holder {
-        int memory = 0;
+        Memory memory = Memory::host();
         Completion* since = nullptr;  ///< null: long ago
         bool copied = false;          ///< brought there, not made there
     };
@@ -58,6 +77,8 @@ private:
         std::vector<Part> parts;  ///< disjoint, ascending
     };
 
+    static bool is_held(const Part& part, Memory memory);
+    static bool are_disjoint_and_ascending(const std::vector<Part>& parts);
     static Key key_of(const Access& access);
     /// Cuts parts at the ends of the interval, so that it is made of whole parts.
     static void cut(std::vector<Part>& parts, Interval interval);

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 namespace {
@@ -59,6 +61,18 @@ void refuse_outside(const Task& task, const Access& access) {
     if (s != nullptr && s->item(access.end) > size) refuse(task, access, "items beyond its end");
 }
 
+/// Launches that take turns go colour by colour through the same strips.
+[[maybe_unused]] bool takes_turns_on_equal_terms(const TaskBody& body) {
+    const auto turns = static_cast<std::size_t>(body.taking_turns);
+    if (turns > body.launches.size()) return false;
+    return std::ranges::all_of(body.launches.begin(), body.launches.begin() + body.taking_turns,
+                               [&](const Launch& launch) {
+                                   const Segments& first = body.launches[0].segments;
+                                   return launch.segments.colour_count == first.colour_count &&
+                                          launch.segments.strip_count == first.strip_count;
+                               });
+}
+
 int overlap(const Access& a, const Access& b) {
     return std::max(0, std::min(a.end, b.end) - std::max(a.begin, b.begin));
 }
@@ -110,6 +124,12 @@ Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strip
 
 Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int end_strip,
                        int region) {
+    WEFT_ASSERT(iteration >= 0 && region >= 0);
+    WEFT_ASSERT(0 <= first_strip && first_strip <= end_strip);
+    WEFT_ASSERT(std::ranges::all_of(body.launches, [&](const Launch& launch) {
+        return end_strip <= launch.segments.strip_count;
+    }));
+    WEFT_ASSERT(takes_turns_on_equal_terms(body));
     tasks_.push_back({&body,
                       iteration,
                       first_strip,
@@ -121,6 +141,7 @@ Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int
 }
 
 void Step::seal() {
+    WEFT_ASSERT(dependencies_.empty() && carried_.empty());
     refuse_mixed_units(tasks_);
     // Two instances in a row; a dependency is kept unless it follows from others already. The
     // transitive ones are found through the set of tasks that each task is known to come after.

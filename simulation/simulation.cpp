@@ -11,6 +11,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/executor.h"
+#include "runtime/opencl/opencl_device.h"
 #include "simulation/diagnosis.h"
 #include "simulation/frame_recorder.h"
 #include "simulation/planning/frame_planner.h"
@@ -63,6 +64,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       first_substeps_(model_->scene.substeps) {
     std::iota(active_.begin(), active_.end(), 0);
     warn_of_start(*model_, warnings);
+    for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
     open_executor();
     if (options.calibrate) calibrate(restore_costs(), warnings);
@@ -267,10 +269,11 @@ void Simulation::end_part(FrameRecord& frame, double& part) const {
 
 /// The state in the middle of a frame is lost with the device, so the frame begins again.
 void Simulation::go_on_without(const DeviceLost& lost) {
-    const int number = active_[static_cast<std::size_t>(lost.device)];
+    const auto place = active_.begin() + static_cast<int>(lost.device);
+    const int number = *place;
     const std::string name = devices_[static_cast<std::size_t>(number)]->info().name;
     losses_.push_back({number, frame_, lost.what()});
-    active_.erase(active_.begin() + lost.device);
+    active_.erase(place);
     start_->put(*model_, *solver_);
     if (active_.empty()) {
         throw RunError(fmt::format("device {} was lost in frame {}, and there is no other: {}",
@@ -278,7 +281,7 @@ void Simulation::go_on_without(const DeviceLost& lost) {
     }
     std::vector<int> kept(active_.size());
     std::iota(kept.begin(), kept.end(), 0);
-    for (int& k : kept) k += k >= lost.device ? 1 : 0;
+    for (int& k : kept) k += k >= static_cast<int>(lost.device) ? 1 : 0;
     const TimingModel learnt = planner_->timing();
     open_executor();
     planner_->timing().inherit(learnt, kept);

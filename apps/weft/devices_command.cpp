@@ -9,6 +9,7 @@
 #include "apps/weft/device_costs.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
+#include "runtime/opencl/opencl_device.h"
 
 namespace weft {
 
@@ -109,6 +110,7 @@ void list_devices(const DevicesOptions& options) {
     }
     for (const Row& row : rows) std::cout << row_text(row) << '\n';
     std::cout << fmt::format("--device hybrid, the default, is {} here\n", hybrid_devices());
+    for (const std::string& trouble : opencl_troubles()) std::cerr << "weft: " << trouble << '\n';
     if (names.size() > 1) return;
     std::cerr
         << "weft: no OpenCL device was found; pocl-opencl-icd makes one of the CPU, and a GPU "

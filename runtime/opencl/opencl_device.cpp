@@ -1,8 +1,11 @@
 #include "runtime/opencl/opencl_device.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "runtime/opencl/extra_drivers.h"
+#include "runtime/opencl/platforms.h"
+#include "runtime/opencl/probe.h"
 #include "runtime/opencl/stream.h"
 
 namespace weft {
@@ -10,22 +13,12 @@ namespace weft {
 namespace {
 
 std::vector<cl::Device> find_devices() {
+    const OpenClProbe& probe = probe_opencl();
+    if (probe.no_loader) return {};
     std::vector<cl::Device> devices;
-    std::vector<cl::Platform> platforms;
-    const ExtraDrivers drivers(usual_driver_places());
-    try {
-        cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
-        return {};  // the loader reports "no platform" as an error
-    }
-    for (const cl::Platform& platform : platforms) {
-        try {
-            std::vector<cl::Device> found;
-            platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
-            devices.insert(devices.end(), found.begin(), found.end());
-        } catch (const cl::Error&) {
-            // A platform without devices.
-        }
+    for (const cl::Platform& platform : usable_platforms(probe.unusable)) {
+        const auto found = devices_of(platform);
+        devices.insert(devices.end(), found.begin(), found.end());
     }
     return devices;
 }
@@ -108,15 +101,41 @@ std::vector<cl::Device> divide(cl::Device device, const std::vector<int>& parts)
 
 }  // namespace
 
+std::vector<cl::Platform> opencl_platforms() {
+    const ExtraDrivers drivers(usual_driver_places());
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {};  // the loader reports "no platform" as an error
+    }
+    return platforms;
+}
+
+std::vector<cl::Device> devices_of(const cl::Platform& platform) {
+    std::vector<cl::Device> devices;
+    try {
+        platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    } catch (const cl::Error&) {
+        return {};  // a platform without devices
+    }
+    return devices;
+}
+
+std::string name_of(const cl::Platform& platform) {
+    return trimmed(platform.getInfo<CL_PLATFORM_NAME>());
+}
+
+OpenClDeviceSummary summarise(const cl::Device& device) {
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    return {trimmed(device.getInfo<CL_DEVICE_NAME>()), name_of(platform),
+            static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
+            is_type(device, CL_DEVICE_TYPE_CPU), is_type(device, CL_DEVICE_TYPE_GPU)};
+}
+
 std::vector<OpenClDeviceSummary> opencl_devices() {
     std::vector<OpenClDeviceSummary> list;
-    for (const cl::Device& device : all_devices()) {
-        const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
-        list.push_back({trimmed(device.getInfo<CL_DEVICE_NAME>()),
-                        trimmed(platform.getInfo<CL_PLATFORM_NAME>()),
-                        static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
-                        is_type(device, CL_DEVICE_TYPE_CPU), is_type(device, CL_DEVICE_TYPE_GPU)});
-    }
+    for (const cl::Device& device : all_devices()) list.push_back(summarise(device));
     return list;
 }
 

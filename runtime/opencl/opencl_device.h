@@ -20,9 +20,12 @@ struct OpenClDeviceSummary {
     bool is_gpu = false;
 };
 
-/// All devices of all platforms; none where there is no platform. Initialises OpenCL at the first
-/// call.
+/// All devices of all platforms but those that end the process that asks them; none where there is
+/// no platform. Initialises OpenCL at the first call.
 std::vector<OpenClDeviceSummary> opencl_devices();
+
+/// What of this machine's OpenCL had to be left out so far, and why, in words. Asks no driver.
+std::vector<std::string> opencl_troubles();
 
 /// Opens device `index` of opencl_devices(). With `parts`, the device is divided into sub-devices
 /// of so many compute units each, from its first unit on, and one device is opened per part.

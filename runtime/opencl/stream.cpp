@@ -1,6 +1,7 @@
 #include "runtime/opencl/stream.h"
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <stdexcept>
 
@@ -31,13 +32,40 @@ void keep(Kept kept) {
     all->push_back(std::move(kept));
 }
 
+/// Mapped memory is the driver's, where it likes it best, and the host has its own beside it: while
+/// a device works on some ranges, the host and others have to write into others, and what the host
+/// writes into memory that is not mapped, a device need not see.
+cl_mem_flags flags_of(MemoryModel memory) {
+    switch (memory) {
+        case MemoryModel::kHost:
+            return CL_MEM_USE_HOST_PTR;
+        case MemoryModel::kMapped:
+            return CL_MEM_ALLOC_HOST_PTR | CL_MEM_COPY_HOST_PTR;
+        case MemoryModel::kDiscrete:
+            return CL_MEM_COPY_HOST_PTR;
+    }
+    throw std::logic_error("unknown memory model");
+}
+
 cl::Buffer make_memory(const OpenClTarget& target, BufferStorage& buffer) {
-    const bool in_place = target.info.memory != MemoryModel::kDiscrete;
     // Whole and padded pages: zero copy asks for them, and no size is 0.
     const std::size_t bytes = std::max<std::size_t>((buffer.bytes() + 63) / 64 * 64, 64);
-    const cl_mem_flags flags =
-        CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR);
-    return cl::Buffer(target.context, flags, bytes, buffer.host());
+    return cl::Buffer(target.context, CL_MEM_READ_WRITE | flags_of(target.info.memory), bytes,
+                      buffer.host());
+}
+
+/// What the host does with memory while it is mapped.
+struct MappedCopy {
+    void* to;
+    const void* from;
+    std::size_t bytes;
+    cl::UserEvent done;
+};
+
+void CL_CALLBACK copy_mapped(cl_event, cl_int status, void* data) {
+    const std::unique_ptr<MappedCopy> copy(static_cast<MappedCopy*>(data));
+    if (status == CL_COMPLETE) std::memcpy(copy->to, copy->from, copy->bytes);
+    copy->done.setStatus(status);
 }
 
 }  // namespace
@@ -110,6 +138,8 @@ void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
     for (const std::string& entry : entries) {
         bound.entries.push_back({cl::Kernel(program, entry.c_str())});
     }
+    WEFT_ASSERT(entries.size() ==
+                (target_.style == EntryStyle::kPerStrip ? 1 : body.launches.size()));
     set_arguments(bound);
     bodies_.push_back(std::move(bound));
 }
@@ -182,6 +212,7 @@ void OpenClStream::run_strips(BoundBody& bound, const Submission& s, std::vector
     entry.set(0, s.task->first_strip);
     entry.set(1, s.instance);
     entry.set(2, s.task->iteration);
+    WEFT_ASSERT(s.task->first_strip < s.task->end_strip);
     const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
     enqueue(entry, cl::NDRange(strips), cl::NDRange(1), waits, running);
 }
@@ -284,6 +315,7 @@ void OpenClStream::times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& co
 OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferStorage& buffer,
                                                   ElementSpan span,
                                                   const std::vector<cl::Event>& waits) {
+    WEFT_ASSERT(span.begin < span.end && span.end <= buffer.count());
     const cl::Buffer& memory = memory_of(buffer);
     const std::size_t offset = span.begin * buffer.element_size();
     const std::size_t bytes = (span.end - span.begin) * buffer.element_size();
@@ -293,9 +325,16 @@ OpenClStream::Commands OpenClStream::enqueue_copy(Direction direction, BufferSto
     const double enqueued = now();
     Commands commands;
     if (target_.info.memory == MemoryModel::kMapped) {
-        void* mapped = copies_.enqueueMapBuffer(memory, CL_FALSE, out ? CL_MAP_WRITE : CL_MAP_READ,
+        void* mapped = copies_.enqueueMapBuffer(memory, CL_FALSE,
+                                                out ? CL_MAP_WRITE_INVALIDATE_REGION : CL_MAP_READ,
                                                 offset, bytes, wait_list, &commands.first);
-        copies_.enqueueUnmapMemObject(memory, mapped, nullptr, &commands.last);
+        const cl::UserEvent done(target_.context);
+        auto copy = std::make_unique<MappedCopy>(out ? MappedCopy{mapped, host, bytes, done}
+                                                     : MappedCopy{host, mapped, bytes, done});
+        commands.first.setCallback(CL_COMPLETE, copy_mapped, copy.get());
+        static_cast<void>(copy.release());  // copy_mapped owns it now
+        const std::vector<cl::Event> copied{done};
+        copies_.enqueueUnmapMemObject(memory, mapped, &copied, &commands.last);
         note_first(commands.first, enqueued);
         return commands;
     }

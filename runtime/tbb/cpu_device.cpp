@@ -71,6 +71,7 @@ struct BoundLaunch {
     void run(int strip, int colour) const {
         const int begin = segments.item(strip, colour);
         const int end = segments.item(strip, colour + 1);
+        WEFT_ASSERT(0 <= begin && begin <= end);
         if (begin < end) function(begin, end, arguments.data());
     }
 };
@@ -174,6 +175,7 @@ public:
 
     void begin(double epoch) override {
         const std::lock_guard lock(mutex_);
+        WEFT_ASSERT(finished_ == jobs_.size());
         jobs_.clear();
         times_.clear();
         released_ = 0;

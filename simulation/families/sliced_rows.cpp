@@ -2,16 +2,20 @@
 
 #include <algorithm>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_begin,
                        std::span<const int> lengths)
     : slices_(name, 2 * lengths.size()) {
+    WEFT_ASSERT(segment_begin.back() == std::ssize(lengths));
     for (std::size_t s = 0; s + 1 < segment_begin.size(); ++s) {
         for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += kStride) {
             const int end = std::min(first + kStride, segment_begin[s + 1]);
             int longest = 0;
             for (int i = first; i < end; ++i) {
+                WEFT_ASSERT(lengths[static_cast<std::size_t>(i)] >= 0);
                 longest = std::max(longest, lengths[static_cast<std::size_t>(i)]);
             }
             for (int i = first; i < end; ++i) {

@@ -5,9 +5,12 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 Division Division::single(int device_count, int strip_count, int device) {
+    WEFT_ASSERT(device >= 0 && device < device_count);
     Division division{std::vector<int>(static_cast<std::size_t>(device_count), 0)};
     division.strips[static_cast<std::size_t>(device)] = strip_count;
     return division;
@@ -15,6 +18,7 @@ Division Division::single(int device_count, int strip_count, int device) {
 
 Division Division::proportional(int strip_count, std::span<const double> speeds) {
     const double all = std::accumulate(speeds.begin(), speeds.end(), 0.0);
+    WEFT_ASSERT(all > 0.0);
     Division division;
     double before = 0.0;
     int given = 0;
@@ -23,9 +27,11 @@ Division Division::proportional(int strip_count, std::span<const double> speeds)
         const int later = static_cast<int>(speeds.size() - d) - 1;  // devices that still want one
         int end = static_cast<int>(std::lround(before / all * strip_count));
         end = std::max(std::min(end, strip_count - later), std::min(given + 1, strip_count));
+        WEFT_ASSERT(end >= given);
         division.strips.push_back(end - given);
         given = end;
     }
+    WEFT_ASSERT(given == strip_count);
     return division;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/descent/energy_terms.h"
+#include "scheduler/assert.h"
 
 namespace weft {
 
@@ -66,6 +67,7 @@ void EnergySum::place_strips() {
         }
         base.push_back(base.back() + rows * kColumns);
     }
+    WEFT_ASSERT(std::ranges::is_sorted(base));
     column_begin_[used_.size()] = static_cast<int>(used_.size()) * kColumns;
     terms_ = std::make_unique<Buffer<float>>("energy.terms", static_cast<std::size_t>(base.back()));
     move_into_strips(*vertices_, base);

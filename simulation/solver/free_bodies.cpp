@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/descent/free_bodies.h"
+#include "scheduler/assert.h"
 #include "simulation/topology/components.h"
 
 namespace weft {
@@ -38,6 +39,7 @@ std::vector<FreeBodies::Run> FreeBodies::runs_of(const Model& model,
         while (begin < last) {
             const int strip = model.strips.strip_of(begin);
             const int end = std::min(last, model.strips.begin[at(strip + 1)]);
+            WEFT_ASSERT(begin < end);
             runs.push_back({body, strip, begin, end});
             begin = end;
         }
@@ -61,6 +63,7 @@ FreeBodies::FreeBodies(const Model& model, const std::vector<int>& bodies, std::
     fill_strips(model);
     fill_bodies();
     fill_columns(model, bodies);
+    WEFT_ASSERT(strip_runs_[at(model.strips.count())] == static_cast<int>(runs_.size()));
     runs_by_strip_ = {&strip_runs_, 0, 1, model.strips.count()};
     columns_by_strip_ = {&strip_columns_, 0, 1, model.strips.count()};
 }

@@ -4,6 +4,8 @@
 #include <bit>
 #include <numeric>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 namespace {
 
@@ -118,6 +120,7 @@ void Colourer::balance(std::span<const int> elements, int count, std::span<int> 
     }
     for (int e : elements) {
         const std::uint64_t here = taken(e);
+        WEFT_ASSERT((here >> colour[e] & 1) != 0);  // its own
         int best = colour[e];
         int best_size = size[best] - 1;
         for (int c = 0; c < count; ++c) {

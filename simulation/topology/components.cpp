@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 std::vector<int> component_begins(int vertex_count, std::span<const Stencils> kinds) {
@@ -10,6 +12,7 @@ std::vector<int> component_begins(int vertex_count, std::span<const Stencils> ki
     for (const Stencils& kind : kinds) {
         for (int e = 0; e < kind.count(); ++e) {
             const auto [low, high] = std::ranges::minmax(kind[e]);
+            WEFT_ASSERT(low >= 0 && high < vertex_count);
             ++opened[static_cast<std::size_t>(low)];
             ++closed[static_cast<std::size_t>(high)];
         }
@@ -20,6 +23,7 @@ std::vector<int> component_begins(int vertex_count, std::span<const Stencils> ki
         if (open == 0) begins.push_back(static_cast<int>(v));
         open += opened[v] - closed[v];
     }
+    WEFT_ASSERT(open == 0);
     begins.push_back(vertex_count);
     return begins;
 }

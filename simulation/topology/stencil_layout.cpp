@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scheduler/assert.h"
 #include "simulation/topology/vertex_groups.h"
 
 namespace weft {
@@ -82,6 +83,7 @@ StencilLayout make_stencil_layout(std::span<const Stencils> kinds, const Strips&
         sort_into_segments(graph, strips, places, choice.groups(), items);
     const std::vector<int> begin = std::exchange(items.segment_begin, {0});
 
+    WEFT_ASSERT(std::ranges::is_sorted(begin));
     layout.families.resize(candidates.size() + 1);
     for (std::size_t f = 0; f < layout.families.size(); ++f) {
         layout.families[f].segment_begin = {0};
@@ -97,6 +99,7 @@ StencilLayout make_stencil_layout(std::span<const Stencils> kinds, const Strips&
         }
         items.segment_begin.push_back(static_cast<int>(items.vertices.size()));
     }
+    WEFT_ASSERT(items.vertices.size() == strips.order.size());
     return layout;
 }
 

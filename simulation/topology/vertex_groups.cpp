@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 std::vector<Place> find_places(const VertexGraph& graph, const Strips& strips) {
@@ -127,11 +129,13 @@ std::vector<int> sort_into_segments(const VertexGraph& graph, const Strips& stri
         if (groups.leads(v)) ++begin[segment_of(v) + 1];
     }
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    WEFT_ASSERT(begin.back() <= vertex_count);
     std::vector<int> next = begin;
     std::vector<int> sorted(static_cast<std::size_t>(begin.back()));
     for (int v = 0; v < vertex_count; ++v) {
         if (groups.leads(v)) sorted[next[segment_of(v)]++] = v;
     }
+    WEFT_ASSERT(std::equal(next.begin(), next.end() - 1, begin.begin() + 1));
     return sorted;
 }
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "scheduler/assert.h"
+
 namespace weft {
 namespace {
 
@@ -166,6 +168,8 @@ VertexOrder order_vertices(int vertex_count, std::span<const Stencils> kinds) {
         result.order.insert(result.order.end(), best.order.begin(), best.order.end());
     }
     result.level_begin.push_back(vertex_count);
+    WEFT_ASSERT(std::ssize(result.order) == vertex_count);
+    WEFT_ASSERT(std::ranges::is_sorted(result.level_begin));
     return result;
 }
 

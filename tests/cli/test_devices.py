@@ -1,5 +1,6 @@
 """`weft devices`, and that OpenCL is not touched unless a device asks for it."""
 
+import json
 import os
 import pathlib
 
@@ -61,3 +62,51 @@ def test_the_wire_trips(wired):
     folder, mark, environment = wired
     weft("devices", cwd=folder, env=environment)
     assert mark.exists()
+
+
+@pytest.fixture
+def with_bad_driver(tmp_path):
+    """Makes an environment with one more platform, a bad one of some kind, beside the machine's own."""
+    driver = pathlib.Path(os.environ["WEFT_BIN"]) / "bad_driver.so"
+    if not driver.exists():
+        pytest.skip("OpenCL has no loader of platforms here")
+
+    def make(kind):
+        vendors = tmp_path / "vendors"
+        vendors.mkdir()
+        own = pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors"))
+        for icd in own.glob("*.icd"):
+            (vendors / icd.name).write_text(icd.read_text())
+        (vendors / "a_bad_one.icd").write_text(f"{driver}\n")
+        (tmp_path / "scene.toml").write_text(SHEET)
+        return dict(os.environ, OCL_ICD_VENDORS=str(vendors), WEFT_BAD_DRIVER=kind)
+
+    return make
+
+
+@pytest.mark.parametrize("kind", ["crash", "missing"])
+def test_a_driver_that_dies_is_left_out(with_bad_driver, tmp_path, kind):
+    usual = weft_json("devices")["devices"]
+    environment = with_bad_driver(kind)
+    result = weft("devices", "--json", env=environment)
+    assert result.returncode == 0, result.stderr
+    assert [d["name"] for d in json.loads(result.stdout)["devices"]] == [d["name"] for d in usual]
+    result = weft("devices", env=environment)
+    assert result.returncode == 0, result.stderr
+    assert result.stderr.count("the OpenCL platform 'Bad driver' is left out") == 1
+    assert "Segmentation fault" in result.stderr
+    for devices in ["hybrid", "opencl"] if len(usual) > 1 else ["hybrid"]:
+        result = weft("run", "scene.toml", "--device", devices, "--frames", "1", "--force",
+                      cwd=tmp_path, env=environment)
+        assert result.returncode == 0, result.stderr
+        assert "'Bad driver' is left out" in result.stderr
+
+
+def test_a_loader_that_dies_leaves_the_cpu(with_bad_driver, tmp_path):
+    environment = with_bad_driver("load")
+    result = weft("devices", env=environment)
+    assert result.returncode == 0, result.stderr
+    assert "TBB" in result.stdout and "all OpenCL drivers are left out" in result.stderr
+    result = weft("run", "scene.toml", "--device", "opencl", cwd=tmp_path, env=environment)
+    assert result.returncode == 2
+    assert "all OpenCL drivers are left out" in result.stderr

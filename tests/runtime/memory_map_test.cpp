@@ -13,6 +13,11 @@ constexpr int kMemories = 4;
 constexpr int kUnits = 24;
 constexpr int kBuffers = 2;
 
+/// 0: the host's.
+Memory memory_number(int number) {
+    return number == 0 ? Memory::host() : Memory::of_device(number - 1);
+}
+
 class Done final : public Completion {
 public:
     void wait() override {}
@@ -26,16 +31,16 @@ struct Unit {
         Completion* since = nullptr;
         bool copied = false;
     };
-    std::map<int, Holding> holders;
+    std::map<Memory, Holding> holders;
 };
 
 /// Unit by unit, what MemoryMap keeps in intervals.
 class Reference {
 public:
-    void written(int buffer, int begin, int end, int memory, Completion* task) {
+    void written(int buffer, int begin, int end, Memory memory, Completion* task) {
         for (int u = begin; u < end; ++u) at(buffer, u) = {true, {{memory, {task, false}}}};
     }
-    void arrived(int buffer, int begin, int end, int memory, Completion* arrival) {
+    void arrived(int buffer, int begin, int end, Memory memory, Completion* arrival) {
         for (int u = begin; u < end; ++u) at(buffer, u).holders[memory] = {arrival, true};
     }
     void forget(int buffer) { std::fill_n(units_[buffer], kUnits, Unit{}); }
@@ -46,7 +51,7 @@ public:
             }
         }
     }
-    bool is_missing(int buffer, int u, int memory) {
+    bool is_missing(int buffer, int u, Memory memory) {
         const Unit& unit = at(buffer, u);
         return unit.noted && !unit.holders.contains(memory);
     }
@@ -71,7 +76,8 @@ private:
         const int buffer = pick(kBuffers);
         const int begin = pick(kUnits - 1);
         const int end = begin + 1 + pick(std::min(8, kUnits - begin));
-        const int memory = pick(kMemories);
+        const int number = pick(kMemories);
+        const Memory memory = memory_number(number);
         const Access access{&buffers_[buffer], nullptr, begin, end, true};
         switch (pick(10)) {
             case 0:
@@ -86,19 +92,19 @@ private:
             case 3:
             case 4:
             case 5: {
-                map_.written(access, memory, &done_[memory]);
-                reference_.written(buffer, begin, end, memory, &done_[memory]);
+                map_.written(access, memory, &done_[number]);
+                reference_.written(buffer, begin, end, memory, &done_[number]);
                 break;
             }
             default:
                 bring(access, buffer, memory);
         }
-        check(access, buffer, pick(kMemories));
+        check(access, buffer, memory_number(pick(kMemories)));
         check_host(buffer);
     }
 
     /// As an executor does: every missing part is copied.
-    void bring(const Access& access, int buffer, int memory) {
+    void bring(const Access& access, int buffer, Memory memory) {
         for (const auto& missing : map_.missing(access, memory)) {
             map_.arrived(access, missing.interval, memory, &arrival_);
             reference_.arrived(buffer, missing.interval.begin, missing.interval.end, memory,
@@ -107,7 +113,7 @@ private:
         ASSERT_TRUE(map_.missing(access, memory).empty());
     }
 
-    void check(const Access& access, int buffer, int memory) {
+    void check(const Access& access, int buffer, Memory memory) {
         bool found[kUnits] = {};
         for (const auto& missing : map_.missing(access, memory)) {
             for (int u = missing.interval.begin; u < missing.interval.end; ++u) {
@@ -116,7 +122,8 @@ private:
                 const auto& holders = reference_.at(buffer, u).holders;
                 const auto source = holders.find(missing.source);
                 ASSERT_NE(source, holders.end()) << "unit " << u << " is not current at its source";
-                EXPECT_TRUE(missing.source == 0 || !holders.contains(0)) << "the host is nearer";
+                EXPECT_TRUE(missing.source.is_host() || !holders.contains(Memory::host()))
+                    << "the host is nearer";
                 EXPECT_EQ(missing.made_by, source->second.since);
             }
         }
@@ -138,7 +145,7 @@ private:
             for (int u = missing.interval.begin; u < missing.interval.end; ++u) found[u] = true;
         }
         for (int u = 0; u < kUnits; ++u) {
-            EXPECT_EQ(found[u], reference_.is_missing(buffer, u, 0)) << "unit " << u;
+            EXPECT_EQ(found[u], reference_.is_missing(buffer, u, Memory::host())) << "unit " << u;
         }
     }
 
@@ -161,7 +168,7 @@ TEST(MemoryMap, KeepsWhatAModelUnitByUnitKeeps) {
 TEST(MemoryMap, UnknownDataAreCurrentEverywhere) {
     Buffer<float> buffer("b", 10);
     const MemoryMap map;
-    EXPECT_TRUE(map.missing({&buffer, nullptr, 0, 10, false}, 3).empty());
+    EXPECT_TRUE(map.missing({&buffer, nullptr, 0, 10, false}, memory_number(3)).empty());
     EXPECT_TRUE(map.missing_at_host(buffer).empty());
 }
 
@@ -184,9 +191,9 @@ TEST(MemoryMap, SegmentTablesOfOneBufferAreIndependent) {
     const Segments other{&begin, 4, 1, 4};
     Buffer<float> buffer("b", 21);
     MemoryMap map;
-    map.written({&buffer, &one, 0, 4, true}, 1, nullptr);
-    EXPECT_TRUE(map.missing({&buffer, &other, 0, 4, false}, 2).empty());
-    EXPECT_EQ(map.missing({&buffer, &one, 2, 3, false}, 2).size(), 1U);
+    map.written({&buffer, &one, 0, 4, true}, memory_number(1), nullptr);
+    EXPECT_TRUE(map.missing({&buffer, &other, 0, 4, false}, memory_number(2)).empty());
+    EXPECT_EQ(map.missing({&buffer, &one, 2, 3, false}, memory_number(2)).size(), 1U);
 }
 
 }  // namespace
