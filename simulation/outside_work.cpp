@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "runtime/tbb/parallel.h"
 #include "simulation/diagnostics.h"
@@ -15,13 +17,8 @@ constexpr double kTouch = 1e-4;  ///< [m] from where an obstacle keeps a vertex
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// A vertex that is led along.
-struct Led {
-    Vec3 by;  ///< in the frame [m]
-    bool is_held = false;
-};
-
-bool is_led(const Led& led) { return dot(led.by, led.by) > 0.0; }
+/// What leads a vertex along. A byte each: most elements are passed over by these alone.
+enum class Led : std::uint8_t { kNot, kByPin, kByObstacle };
 
 /// The vertices that something leads, and where.
 class Leads {
@@ -38,7 +35,7 @@ public:
     }
 
     bool is_any() const {
-        return std::ranges::any_of(led_, [](const Led& led) { return is_led(led); });
+        return std::ranges::any_of(led_, [](Led led) { return led != Led::kNot; });
     }
 
     double work(Vec3 gravity) const {
@@ -52,6 +49,7 @@ private:
     template <class LeadOne>
     void lead_all(const LeadOne& lead_one) {
         led_.resize(now_.size());
+        by_.resize(now_.size());
         for_each_block(model_.vertex_count(), [&](int /*block*/, int begin, int end) {
             for (int v = begin; v < end; ++v) lead_one(at(v));
         });
@@ -60,16 +58,24 @@ private:
     void lead_by_pins() {
         lead_all([&](std::size_t v) {
             if (now_[v].w != 0.0f) return;
-            led_[v] = {to_vec3(now_[v]) - to_vec3(before_[v]), true};
+            by_[v] = to_vec3(now_[v]) - to_vec3(before_[v]);
+            if (!(by_[v] == Vec3{})) led_[v] = Led::kByPin;
         });
     }
 
     void lead_by(const Obstacle& obstacle, const Frame& from, const Frame& to) {
+        const double near = obstacle.thickness + kTouch;
+        const bool is_endless = obstacle.half_size == Vec3{};
+        const double reach = length(obstacle.half_size) + near;
         lead_all([&](std::size_t v) {
             if (now_[v].w == 0.0f) return;
-            const Vec3 local = to.to_local(to_vec3(now_[v]));
-            if (distance_to_local(obstacle, local) > obstacle.thickness + kTouch) return;
-            led_[v] = {to_vec3(now_[v]) - from.to_world(local), false};
+            const Vec3 place = to_vec3(now_[v]);
+            const Vec3 apart = place - to.origin;
+            if (!is_endless && dot(apart, apart) > reach * reach) return;
+            const Vec3 local = to.to_local(place);
+            if (distance_to_local(obstacle, local) > near) return;
+            by_[v] = place - from.to_world(local);
+            led_[v] = Led::kByObstacle;
         });
     }
 
@@ -77,7 +83,7 @@ private:
     double of_vertices(Vec3 gravity) const {
         double sum = 0.0;
         for (std::size_t v = 0; v < led_.size(); ++v) {
-            if (!led_[v].is_held) sum -= model_.masses[v] * dot(gravity, led_[v].by);
+            if (led_[v] == Led::kByObstacle) sum -= model_.masses[v] * dot(gravity, by_[v]);
         }
         return sum;
     }
@@ -92,16 +98,18 @@ private:
 
     double of_element(const ElementFamily& family, int element) const {
         const auto corners = family.corners(element);
-        if (std::ranges::none_of(corners, [&](int v) { return is_led(led_[at(v)]); })) return 0.0;
+        const auto is_led = [&](int v) { return led_[at(v)] != Led::kNot; };
+        if (std::ranges::none_of(corners, is_led)) return 0.0;
         std::array<Vec3, kMaxCorners> first{}, last{};
         family.gradient(element, family.positions_of(element, before_).data(), first.data());
         family.gradient(element, family.positions_of(element, now_).data(), last.data());
         double sum = 0.0;
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Led& led = led_[at(corners[k])];
+            const std::size_t v = at(corners[k]);
+            if (led_[v] == Led::kNot) continue;
             // What touches an obstacle at the end need not have done so at the start.
-            const Vec3 force = led.is_held ? 0.5 * (first[k] + last[k]) : last[k];
-            sum += dot(force, led.by);
+            const bool is_held = led_[v] == Led::kByPin;
+            sum += dot(is_held ? 0.5 * (first[k] + last[k]) : last[k], by_[v]);
         }
         return sum;
     }
@@ -109,6 +117,7 @@ private:
     const Model& model_;
     std::span<const float4> before_, now_;
     std::vector<Led> led_;  ///< [vertices]; empty: none
+    std::vector<Vec3> by_;  ///< [vertices] in the frame [m]
 };
 
 OutsideWork work_of_gravity(const Model& model, std::span<const float4> before,
