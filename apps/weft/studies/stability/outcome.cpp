@@ -8,6 +8,7 @@
 
 #include "runtime/error.h"
 #include "simulation/scene/read_scene.h"
+#include "simulation/start_checks.h"
 
 namespace weft::stability {
 
@@ -123,8 +124,10 @@ private:
         SimulationOptions settings = options_.simulation();
         settings.on_trouble = OnTrouble::kReport;
         settings.cost_file.clear();
+        Warnings of_devices;  // these say nothing of the scene
+        simulation_ = std::make_unique<Simulation>(scene, settings, of_devices);
         Warnings warnings;
-        simulation_ = std::make_unique<Simulation>(scene, settings, warnings);
+        warn_of_start(Model(scene, warnings), warnings);
         start_as(what_.start, *simulation_);
         first_ = simulation_->positions();
         rest_size_ = static_cast<double>(diagonal(first_));
