@@ -26,8 +26,8 @@ scheduler::Plan plan_of_one_task() {
 
 class Search {
 public:
-    Search(int frame, const SimulationState& start, const Watch& watch, Model& model,
-           Solver& solver)
+    Search(int frame, const SimulationState& start, const Watch& watch, const Step& step,
+           Model& model, Solver& solver)
         : start_(start),
           watch_(watch),
           model_(model),
@@ -35,7 +35,7 @@ public:
           device_(make_cpu_device(1, {})),
           bodies_(solver.bodies()),
           executor_({device_.get()}, bodies_),
-          step_(solver.make_step(Partition::whole(model.strips.count()))) {}
+          step_(step) {}
 
     /// The first task that left something bad, or the last task of the substep that did.
     std::optional<Finding> find() {
@@ -69,7 +69,7 @@ private:
     std::unique_ptr<Device> device_;
     std::vector<const TaskBody*> bodies_;
     Executor executor_;
-    Step step_;
+    const Step& step_;
 };
 
 constexpr const char* kAdvice =
@@ -85,10 +85,10 @@ std::string text_of(int frame, const Finding& finding, const Model& model) {
 
 }  // namespace
 
-void diagnose_frame(int frame, const SimulationState& start, const Watch& watch, Model& model,
-                    Solver& solver) {
+void diagnose_frame(int frame, const SimulationState& start, const Watch& watch, const Step& step,
+                    Model& model, Solver& solver) {
     start.put(model, solver);
-    Search search(frame, start, watch, model, solver);
+    Search search(frame, start, watch, step, model, solver);
     const auto finding = search.find();
     start.put(model, solver);
     const std::string where =

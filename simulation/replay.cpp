@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <numeric>
 
 #include "runtime/error.h"
@@ -12,11 +13,23 @@ namespace weft {
 
 namespace {
 
-SimulationOptions without_planning(const SimulationOptions& options) {
+constexpr int kMostIterates = 31;  // OwnIterates keeps a bit for each
+
+int recorded_iterates(const RunDescription& run) {
+    int iterates = 1;
+    for (const auto& [name, value] : run.settings) {
+        if (name != "iterates") continue;
+        std::from_chars(value.data(), value.data() + value.size(), iterates);
+    }
+    return std::clamp(iterates, 1, kMostIterates);
+}
+
+SimulationOptions without_planning(const SimulationOptions& options, const RunDescription& run) {
     SimulationOptions own;
     own.devices = options.devices;
     own.device_options = options.device_options;
     own.calibrate = false;
+    own.iterates = recorded_iterates(run);
     own.on_trouble = OnTrouble::kReport;  // the run went on, too
     return own;
 }
@@ -43,7 +56,7 @@ scheduler::Plan plan_from(const std::vector<PlanRecord>& tasks, std::size_t devi
 
 Replay::Replay(const Scene& scene, const SimulationOptions& options, const RunDescription& recorded,
                Warnings& warnings)
-    : simulation_(scene, without_planning(options), warnings), recorded_(recorded) {}
+    : simulation_(scene, without_planning(options, recorded), warnings), recorded_(recorded) {}
 
 void Replay::advance(const FrameRecord& recorded) {
     if (static_cast<int>(recorded.frame) != simulation_.frame()) {

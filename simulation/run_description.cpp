@@ -12,7 +12,7 @@ namespace weft {
 
 namespace {
 
-TextPairs settings_of(const Model& model) {
+TextPairs settings_of(const Model& model, const Solver& solver) {
     const Scene& scene = model.scene;
     TextPairs settings{{"method", std::string(name_of(scene.solver.method))},
                        {"frames", std::to_string(scene.frames)},
@@ -21,6 +21,9 @@ TextPairs settings_of(const Model& model) {
                        {"iterations", std::to_string(scene.solver.iterations)},
                        {"vertices", std::to_string(model.vertex_count())},
                        {"strips", std::to_string(model.strips.count())}};
+    if (solver.iterate_count() > 1) {
+        settings.emplace_back("iterates", std::to_string(solver.iterate_count()));
+    }
     if (!scene.overrides.empty()) {
         settings.emplace_back("set", fmt::format("{}", fmt::join(scene.overrides, "\n")));
     }
@@ -49,7 +52,7 @@ RunDescription describe_run(const Model& model, const Solver& solver,
     for (const BodyMesh& mesh : mesh_files(scene)) {
         run.meshes.emplace_back(mesh.body, file_hash(mesh.path));
     }
-    run.settings = settings_of(model);
+    run.settings = settings_of(model, solver);
     for (const auto& device : devices) {
         run.devices.push_back(describe(device->info()));
         if (device->info().memory != MemoryModel::kHost && devices.size() > 1)

@@ -17,12 +17,20 @@
 #include "simulation/planning/frame_planner.h"
 #include "simulation/planning/saved_costs.h"
 #include "simulation/run_description.h"
+#include "simulation/solver/own_iterates.h"
 #include "simulation/start_checks.h"
 #include "simulation/watch.h"
 
 namespace weft {
 
 namespace {
+
+/// With as many iterates as the options ask for.
+std::unique_ptr<Solver> make_solver_for(Model& model, const SimulationOptions& options) {
+    auto solver = options.make_solver(model);
+    if (options.iterates == 1) return solver;
+    return std::make_unique<OwnIterates>(model, std::move(solver), options.iterates);
+}
 
 constexpr int kMostRefinement = 16;  ///< times the substeps that a run began with
 constexpr std::size_t kMostTroubles = 10;
@@ -57,7 +65,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       devices_(std::move(devices)),
       active_(devices_.size()),
       model_(std::make_shared<Model>(scene, warnings)),
-      solver_(options.make_solver(*model_)),
+      solver_(make_solver_for(*model_, options)),
       recorder_(std::make_unique<FrameRecorder>(devices_.size())),
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
                                      host_threads(devices_))),
@@ -113,7 +121,7 @@ void Simulation::set_substeps(int substeps) {
     for (std::size_t v = 0; v < state.velocities.size(); ++v) {
         state.velocities[v].w = (*model->velocities)[v].w;  // what damping leaves per substep
     }
-    auto solver = options_.make_solver(*model);
+    auto solver = make_solver_for(*model, options_);
     const TimingModel learnt = planner_->timing();
     model_.swap(model);
     solver_.swap(solver);
@@ -328,7 +336,7 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     const int substeps = model_->scene.substeps;
     const RunTimes times = run_frame(*plan.step, plan.plan);
     end_part(frame, frame.execute_time);
-    const bool accepted = accepts(frame);
+    const bool accepted = accepts(*plan.step, frame);
     end_part(frame, frame.check_time);
     if (!accepted) return false;
     recorder_->sum_up(plan, times, substeps, active_, frame);
@@ -349,29 +357,29 @@ void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
     place();
     run_frame(step, plan);
     FrameRecord frame;
-    accepts(frame);
+    accepts(step, frame);
     ++frame_;
 }
 
 /// Looks at the frame that has just run, and writes down what there is to see.
-bool Simulation::accepts(FrameRecord& frame) {
+bool Simulation::accepts(const Step& step, FrameRecord& frame) {
     const double end = time() + model_->scene.dt;
     const Watch::Look look = watch_->look(*model_, *start_, time(), end);
-    if (look.alarm && !goes_on_with(*look.alarm)) return false;
+    if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
     watch_->accept(look, look.alarm.has_value());
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     return true;
 }
 
-bool Simulation::goes_on_with(const Alarm& alarm) {
+bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {
     if (options_.on_trouble == OnTrouble::kHalve && halve(alarm)) return false;
     const bool is_told =
         alarm.kind == Alarm::Kind::kDoubt ||
         (alarm.kind == Alarm::Kind::kExplosion && options_.on_trouble == OnTrouble::kReport);
     if (!is_told) {
         restore(*start_);
-        diagnose_frame(frame_, *start_, *watch_, *model_, *solver_);
+        diagnose_frame(frame_, *start_, *watch_, step, *model_, *solver_);
     }
     tell(alarm,
          "the steps are not solved far enough, and what is seen is not believable: more substeps "

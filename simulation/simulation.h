@@ -43,6 +43,7 @@ struct SimulationOptions {
     std::optional<Division> division;  ///< fixed instead of planned
     std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
+    int iterates = 1;                  ///< that devices may have of their own (Partition::spread)
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
     OnTrouble on_trouble = OnTrouble::kStop;
@@ -112,7 +113,9 @@ public:
     /// Goes on with so many substeps per frame, from here on. What a solver remembers of earlier
     /// substeps is forgotten.
     void set_substeps(int substeps);
-    Step make_step(const Division& division) { return solver_->make_step(division.partition()); }
+    Step make_step(const Division& division) {
+        return solver_->make_step(division.partition().spread(solver_->iterate_count()));
+    }
 
     int frame() const { return frame_; }  ///< the next one
     const Model& model() const { return *model_; }
@@ -150,8 +153,8 @@ private:
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
-    bool accepts(FrameRecord& frame);
-    bool goes_on_with(const Alarm& alarm);
+    bool accepts(const Step& step, FrameRecord& frame);
+    bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
     void tell(const Alarm& alarm, const std::string& what);
 

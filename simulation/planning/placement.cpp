@@ -214,6 +214,8 @@ std::vector<int> Placement::homes() const {
     std::vector<int> homes(static_cast<std::size_t>(strip_count_), -1);
     const auto& tasks = graph_->step().tasks();
     for (std::size_t t = 0; t < tasks.size(); ++t) {
+        // Exchanges between iterates count in pieces of strips instead.
+        if (tasks[t].body->launches.front().segments.strip_count != strip_count_) continue;
         for (int s = tasks[t].first_strip; s < tasks[t].end_strip; ++s) {
             int& home = homes[static_cast<std::size_t>(s)];
             if (home < 0) home = static_cast<int>(plan_.placements[t].processor);

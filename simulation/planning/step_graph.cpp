@@ -22,7 +22,8 @@ Partition partition_of(std::span<const int> sizes) {
 }  // namespace
 
 StepGraph::StepGraph(Solver& solver, std::span<const int> parts, std::size_t devices)
-    : parts_(parts.begin(), parts.end()), step_(solver.make_step(partition_of(parts))) {
+    : parts_(parts.begin(), parts.end()),
+      step_(solver.make_step(partition_of(parts).spread(solver.iterate_count()))) {
     graph_.clear(static_cast<scheduler::ProcessorId>(devices));
     const std::vector<double> no_cost(devices, 0.0);
     for (const Task& task : step_.tasks()) {

@@ -95,6 +95,8 @@ public:
     }
     std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
 
+    std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get(), &other_}; }
+
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
         Step step;

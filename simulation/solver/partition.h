@@ -9,6 +9,9 @@ namespace weft {
 struct Part {
     int begin = 0;
     int end = 0;
+    /// The copy of what the iterations work on that this part uses; 0: the solver's own buffers.
+    /// Only OwnIterates has others (own_iterates.h).
+    int iterate = 0;
 
     friend auto operator<=>(const Part&, const Part&) = default;
 };
@@ -23,6 +26,9 @@ struct Partition {
     static Partition whole(int strip_count);
     /// Cut before these strips, which ascend and lie in [1, strip_count).
     static Partition at(std::span<const int> cuts, int strip_count);
+
+    /// The same with part r on iterate r, modulo so many: what runs do that have iterates.
+    Partition spread(int iterates) const;
 
     int strip_count() const { return parts.back().end; }
 

@@ -26,6 +26,14 @@ public:
     /// solver would guess from earlier ones, so that all solvers can be compared from one start.
     virtual std::vector<BufferStorage*> state() { return {}; }
 
+    /// The buffers through which parts tell each other of their iterations: what a device has a
+    /// copy of if it shall have an iterate of its own. Tasks access them by elements, not by
+    /// tables. None: this solver's parts share all.
+    virtual std::vector<Buffer<float4>*> iterate() { return {}; }
+    /// How many there are, this solver's own included.
+    virtual int iterate_count() const { return 1; }
+    /// Copies of them that parts work on instead.
+    virtual std::vector<const Buffer<float4>*> other_iterates() const { return {}; }
     /// Tables whose rows the tasks fill anew in every substep. Where one overflows, it grows, and
     /// the frame is done again from its start.
     virtual std::vector<RowTable*> tables() { return {}; }

@@ -23,6 +23,7 @@ public:
     std::vector<const TaskBody*> bodies() const override;
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
     Step make_step(const Partition& partition) override;
 
 protected:

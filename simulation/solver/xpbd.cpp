@@ -36,6 +36,8 @@ public:
         return {"predict", "seams", "strips", "velocities"};
     }
 
+    std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
+
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
         Step step;
