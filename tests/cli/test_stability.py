@@ -69,7 +69,7 @@ def test_other_devices_and_fast_arithmetic_come_to_the_same(short):
 def test_advice_holds(tmp_path):
     (tmp_path / "scene.toml").write_text(SHEET + 'pins = { corners = ["x-z-"] }\n')
     arguments = ["scene.toml", "--frames", "10", "--device", "cpu/1"]
-    advice = weft_json("stability", *arguments, "--solvers", "xpbd,vbd", "--time", "60",
+    advice = weft_json("stability", *arguments, "--solvers", "xpbd,vbd", "--time", "600",
                        cwd=tmp_path)
     best = advice["recommended"]
     holding = [trial for trial in advice["trials"] if trial["holds"]]
