@@ -147,10 +147,23 @@ double fastest_obstacle(const Scene& scene, double start, double end) {
     return most / (end - start);
 }
 
+/// [m/s] of the fastest pin that moves.
+double fastest_pin(const Model& model, std::span<const float4> before, double seconds) {
+    if (!model.moving_pins) return 0.0;
+    double most = 0.0;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const float4& now = (*model.positions)[v];
+        if (now.w == 0.0f) most = std::max(most, length(to_vec3(now) - to_vec3(before[v])));
+    }
+    return most / seconds;
+}
+
 /// A blow gives momentum, and at most so much times the obstacle's speed of energy, also to what no
-/// longer touches it at the frame's end.
+/// longer touches it at the frame's end. So does a pin that starts within the frame: its force is
+/// large for a moment, and gone at the frame's end.
 double doubt_of_blows(const Model& model, const SimulationState& before, double start, double end) {
-    const double speed = fastest_obstacle(model.scene, start, end);
+    const double speed = std::max(fastest_obstacle(model.scene, start, end),
+                                  fastest_pin(model, before.positions, end - start));
     if (speed == 0.0) return 0.0;
     double mass = 0.0;
     for (std::size_t v = 0; v < model.masses.size(); ++v) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/families/block_rows.h"
 #include "simulation/families/elements.h"
 #include "simulation/families/vertex_items.h"
 #include "simulation/mesh/vec3.h"
@@ -86,6 +87,25 @@ public:
     virtual Launch gather_gradients(const DerivativeTarget& target) = 0;
 };
 
+/// Blocks of the Hessian of two vertices, or two groups of them; see kernels/newton/blocks.h.
+struct BlockTarget {
+    const Segments& segments;  ///< of the blocks
+    Buffer<float4>& positions;
+    Buffer<float4>& before;  ///< where the last step started,
+    Buffer<float4>& after;   ///< and where it led to; kernels/newton/springs.h
+    Buffer<float>& blocks;   ///< [columns * block_count]
+    int block_count = 0;
+    int columns = 9;
+    int fresh = 0;  ///< 1: overwrites what stands in the blocks
+};
+
+/// A family seen from such blocks: per block a row of what the elements contribute.
+class BlockRows {
+public:
+    virtual ~BlockRows() = default;
+    virtual Launch couple(const BlockTarget& target) = 0;
+};
+
 /// Elements whose vertices are computed together, in one sweep.
 class StencilSolve {
 public:
@@ -123,6 +143,9 @@ public:
 
     virtual std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const = 0;
     virtual Launch energy_terms(const TermTarget& target) = 0;
+    /// How many numbers a block of the Hessian has: 1, 6 or 9 (kernels/newton/blocks.h).
+    virtual int block_columns() const { return 9; }
+    virtual std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const = 0;
     /// Whether elements may be stencils of SOSD; else their vertices belong to other stencils or
     /// are solved one by one.
     virtual bool has_stencils() const { return false; }

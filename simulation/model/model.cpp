@@ -51,10 +51,16 @@ std::vector<LoadPath> load_paths(const Gathered& all) {
     return load_paths(all, links);
 }
 
+/// Iterations by how far they carry a correction: a step of conjugate gradients as far as a sweep.
+int carrying_iterations(const SolverSettings& solver) {
+    if (solver.method != Method::kNewton) return solver.iterations;
+    return solver.iterations * (solver.cg_steps + solver.sweeps);
+}
+
 Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
     if (scene.substeps > 0) return scene;
-    scene.substeps =
-        believable_substeps(paths, scene.dt, scene.solver.iterations, strongest_gravity(scene));
+    scene.substeps = believable_substeps(paths, scene.dt, carrying_iterations(scene.solver),
+                                         strongest_gravity(scene));
     return scene;
 }
 
@@ -65,7 +71,7 @@ Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings)
     const std::vector<LoadPath> paths = load_paths(all);
     Scene scene = with_substeps(given, paths);
     const double gravity = strongest_gravity(scene);
-    const int iterations = scene.solver.iterations;
+    const int iterations = carrying_iterations(scene.solver);
     for (const LoadPath& path : paths) {
         const double strain =
             unfinished_strain(path, scene.dt / scene.substeps, iterations, gravity);

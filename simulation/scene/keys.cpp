@@ -61,6 +61,16 @@ const TableKeys& solver_table() {
          .help = "iterations per substep",
          .fallback = std::int64_t{SolverSettings{}.iterations},
          .range = between(1, 1e5)},
+        {.name = "cg_steps",
+         .type = Type::kInteger,
+         .help = "newton only: conjugate gradients per iteration, from the fourth iteration on",
+         .fallback = std::int64_t{SolverSettings{}.cg_steps},
+         .range = between(1, 1e4)},
+        {.name = "sweeps",
+         .type = Type::kInteger,
+         .help = "newton only: sweeps of vertex block descent per iteration",
+         .fallback = std::int64_t{SolverSettings{}.sweeps},
+         .range = between(0, 1e2)},
     }};
     return table;
 }

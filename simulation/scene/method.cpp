@@ -15,10 +15,9 @@ struct Entry {
 };
 
 constexpr Entry kMethods[] = {
-    {Method::kXpbd, "xpbd", false},
-    {Method::kVbd, "vbd", true},
-    {Method::kSosd, "sosd", true},
-    {Method::kJpgd, "jpgd", false},
+    {Method::kXpbd, "xpbd", false},    {Method::kVbd, "vbd", true},
+    {Method::kSosd, "sosd", true},     {Method::kJpgd, "jpgd", false},
+    {Method::kNewton, "newton", true},
 };
 
 const Entry& entry_of(Method method) {

@@ -7,7 +7,7 @@
 namespace weft {
 
 /// The solvers by the names that scenes give them.
-enum class Method { kXpbd, kVbd, kSosd, kJpgd };
+enum class Method { kXpbd, kVbd, kSosd, kJpgd, kNewton };
 
 std::vector<std::string> method_names();
 std::string_view name_of(Method method);

@@ -15,6 +15,7 @@
 #include "simulation/scene/read_bodies.h"
 #include "simulation/scene/read_motion.h"
 #include "simulation/scene/resolution.h"
+#include "simulation/scene/solver_limits.h"
 #include "simulation/scene/validate.h"
 
 namespace weft {
@@ -111,13 +112,26 @@ void read_scene_table(const Node& table, Scene& scene) {
     scene.gravity_keys = read_gravity_keys(table);
 }
 
+SolverSettings read_solver(const Node& table) {
+    SolverSettings solver;
+    solver.method = method_named(text_value(table, "method"));
+    solver.iterations = integer_value(table, "iterations");
+    solver.cg_steps = integer_value(table, "cg_steps");
+    solver.sweeps = integer_value(table, "sweeps");
+    if (const int most = most_iterations(solver); solver.iterations > most) {
+        throw value_error(table, "iterations",
+                          fmt::format("{} takes at most {} with cg_steps = {}",
+                                      name_of(solver.method), most, solver.cg_steps));
+    }
+    return solver;
+}
+
 Scene read_document(const Node& root, const std::string& path) {
     Scene scene;
     scene.path = path;
     const Node& scene_table = *root.find("scene");
     read_scene_table(scene_table, scene);
-    scene.solver.method = method_named(text_value(*root.find("solver"), "method"));
-    scene.solver.iterations = integer_value(*root.find("solver"), "iterations");
+    scene.solver = read_solver(*root.find("solver"));
     const Node& guard = *root.find("guard");
     scene.guard = {number_value(guard, "max_speed"), number_value(guard, "max_strain")};
     const Node& output = *root.find("output");

@@ -25,6 +25,8 @@ namespace weft {
 struct SolverSettings {
     Method method = Method::kXpbd;
     int iterations = 8;  ///< per substep, >= 1
+    int cg_steps = 40;   ///< newton: of conjugate gradients, per iteration, >= 1
+    int sweeps = 2;      ///< newton: of vertex block descent, per iteration, >= 0
 };
 
 /// A flat sheet in the x-z plane, its centre at the origin. Vertex (i, k) has index

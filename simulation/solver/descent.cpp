@@ -77,9 +77,9 @@ std::pair<int, int> DescentSubstep::vertices(int first_strip, int end_strip) con
             begin[static_cast<std::size_t>(end_strip)]};
 }
 
-void DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& region) {
+Step::Adding DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& region) {
     const auto [first, last] = vertices(region.begin, region.end);
-    step.add(body, 0, region.begin, region.end, region.id)
+    return step.add(body, 0, region.begin, region.end, region.id)
         .reads(*model_.velocities, first, last)
         .updates(*model_.positions, first, last)
         .updates(*model_.previous, first, last)

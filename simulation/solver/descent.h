@@ -19,7 +19,7 @@ public:
     /// What the first and the last task of a substep launch.
     std::vector<Launch> begin();
     std::vector<Launch> end();
-    void add_begin(Step& step, const TaskBody& body, const Region& region);
+    Step::Adding add_begin(Step& step, const TaskBody& body, const Region& region);
     Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
 
     /// Whether there are bodies whose momentum has to be summed between the last iteration and the

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "simulation/solver/jpgd.h"
+#include "simulation/solver/newton/newton.h"
 #include "simulation/solver/sosd.h"
 #include "simulation/solver/vbd.h"
 #include "simulation/solver/xpbd.h"
@@ -19,6 +20,8 @@ std::unique_ptr<Solver> make_solver(Model& model) {
             return make_sosd_solver(model);
         case Method::kJpgd:
             return make_jpgd_solver(model);
+        case Method::kNewton:
+            return make_newton_solver(model);
     }
     throw std::logic_error("a method without a solver");
 }

@@ -74,9 +74,10 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert {"bending", "obstacles", "friction", "pins", "moving pins", "damping"} <= set(left_out)
     assert left_out["bending"]["kernels"] == [
-        "gather_bending", "gather_bending_gradients", "hinge_terms", "project_hinges"]
+        "couple_curved_hinges", "couple_hinges", "gather_bending", "gather_bending_gradients",
+        "hinge_terms", "project_hinges"]
     assert left_out["solids"]["kernels"] == [
-        "gather_tetrahedra", "gather_tetrahedra_gradients", "project_tetrahedra",
+        "couple_tetrahedra", "gather_tetrahedra", "gather_tetrahedra_gradients", "project_tetrahedra",
         "solve_tetrahedron_stencils", "tetrahedron_terms"]
     assert left_out["membranes"]["kernels"] == [
         "gather_membrane_gradients", "gather_membranes", "membrane_terms", "project_membranes",
@@ -104,8 +105,8 @@ def test_solids_alone_need_nothing_of_cloth(inspect):
     assert not [name for name in buffers if name.startswith(("springs", "membranes", "hinges"))]
     left_out = {entry["what"]: entry for entry in found["left_out"]}
     assert left_out["springs"]["kernels"] == [
-        "gather_spring_gradients", "gather_springs", "project_springs", "solve_spring_stencils",
-        "spring_terms"]
+        "couple_springs", "couple_stitches", "gather_spring_gradients", "gather_springs",
+        "project_springs", "solve_spring_stencils", "spring_terms"]
     energies = next(d for d in found["datasets"] if d["name"] == "energies")
     assert energies["columns"] == ["frame", "kinetic", "gravity", "solid", "total"]
     assert found["triangles"] == 2 * 2 * (10 * 2 + 10 * 2 + 2 * 2)

@@ -11,6 +11,7 @@
 #include "apps/weft/comparison.h"
 #include "apps/weft/studies/repeated_time.h"
 #include "runtime/error.h"
+#include "simulation/scene/solver_limits.h"
 
 namespace weft {
 
@@ -91,8 +92,12 @@ public:
         : options_(options), run_(run), problem_(problem) {}
 
     MeasuredCurve measure() {
-        measured_.end = fmt::format("--max-iterations {}", options_.max_iterations);
-        for (const int iterations : measured_iterations(options_.max_iterations)) {
+        const SolverSettings solver = scene_of_step(options_, *run_.solver, 1).solver;
+        const int most = std::min(options_.max_iterations, most_iterations(solver));
+        measured_.end = most < options_.max_iterations
+                            ? fmt::format("as many as {} takes", name_of(solver.method))
+                            : fmt::format("--max-iterations {}", most);
+        for (const int iterations : measured_iterations(most)) {
             if (spent_ > limit_) {
                 measured_.end = fmt::format("--time {:g}", limit_);
                 break;

@@ -20,6 +20,7 @@ public:
             const HingeCorners corners = part.rest.hinge(vertices);
             if (half_fold(corners).is_flat()) continue;
             append(vertices, part.first_vertex);
+            sines_ += half_fold(corners).sine * half_fold(corners).sine;
             weights_.push_back(curved_hinge_weights(corners));
             for (double& weight : weights_.back()) weight *= root;
         }
@@ -27,7 +28,10 @@ public:
 
     std::unique_ptr<ElementFamily> build(const Strips& strips,
                                          std::span<const Vec3> /*rest*/) const override {
-        return std::make_unique<CurvedHinges>(names(), stencils(), strips, weights_);
+        // Half folds of an eighth of a radian.
+        const bool is_nearly_flat = sines_ < 0.02 * static_cast<double>(weights_.size());
+        return std::make_unique<CurvedHinges>(names(), stencils(), strips, weights_,
+                                              is_nearly_flat);
     }
 
     std::vector<Absence> absences(const Scene& /*scene*/, bool exists) const override {
@@ -37,6 +41,7 @@ public:
 
 private:
     std::vector<CurvedHinges::Weights> weights_;  ///< [hinges]
+    double sines_ = 0.0;                          ///< sum of squares, of half the folds
 };
 
 }  // namespace

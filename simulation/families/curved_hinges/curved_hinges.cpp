@@ -3,9 +3,10 @@
 namespace weft {
 
 CurvedHinges::CurvedHinges(const FamilyNames& names, const Stencils& hinges, const Strips& strips,
-                           std::span<const Weights> given)
+                           std::span<const Weights> given, bool is_nearly_flat)
     : ElementFamily(names, hinges, strips),
-      weights("curved_hinges.weights", 6 * static_cast<std::size_t>(hinges.count())) {
+      weights("curved_hinges.weights", 6 * static_cast<std::size_t>(hinges.count())),
+      is_nearly_flat_(is_nearly_flat) {
     const auto count = static_cast<std::size_t>(hinges.count());
     for (std::size_t h = 0; h < count; ++h) {
         const int original = elements().original(static_cast<int>(h));

@@ -13,18 +13,24 @@ public:
     /// included [sqrt(J) / m, sqrt(J) / m^2]; p_23 is 0.
     using Weights = std::array<double, 6>;
 
-    /// weights: per hinge, as given
+    /// weights: per hinge, as given; is_nearly_flat: folded so little at rest, on average, that a
+    /// flat hinge's constant Hessian serves in a linear system, as on meshes that are fine enough
+    /// for their curvature
     CurvedHinges(const FamilyNames& names, const Stencils& hinges, const Strips& strips,
-                 std::span<const Weights> weights);
+                 std::span<const Weights> weights, bool is_nearly_flat);
 
     /// The same as seen from any corner: of the three that follow it, and of their pairs.
     Weights seen_from(int hinge, int corner) const;
+    /// q of a corner.
+    double weight(int hinge, int corner) const;
     /// p_jk of two corners, -p_kj.
     double pair_weight(int hinge, int j, int k) const;
 
     Launch project(const ProjectTarget& target) override;
     std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
     Launch energy_terms(const TermTarget& target) override;
+    int block_columns() const override { return is_nearly_flat_ ? 1 : 9; }
+    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
     double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int hinge, const Vec3* x) const override;
     void gradient(int hinge, const Vec3* x, Vec3* gradient) const override;
@@ -36,8 +42,7 @@ private:
     double column(int k, int hinge) const {
         return static_cast<double>(weights[static_cast<std::size_t>(k * count() + hinge)]);
     }
-    /// q of a corner.
-    double weight(int hinge, int corner) const;
+    bool is_nearly_flat_;
 };
 
 }  // namespace weft

@@ -27,6 +27,8 @@ public:
     Launch project(const ProjectTarget& target) override;
     std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
     Launch energy_terms(const TermTarget& target) override;
+    int block_columns() const override { return 6; }
+    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
     void reserve(int substeps) override;
     void place(double time, double h) override;
     BufferStorage* placed_buffer() override { return clock.get(); }

@@ -144,7 +144,8 @@ TEST_P(StripAtRest, LiesWhereTheClosedFormSays) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, StripAtRest,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
-                                                          Method::kSosd, Method::kJpgd),
+                                                          Method::kSosd, Method::kJpgd,
+                                                          Method::kNewton),
                                           testing::ValuesIn(kPulls)),
                          [](const auto& given) {
                              return std::string(name_of(std::get<0>(given.param))) +

@@ -14,6 +14,7 @@ namespace weft::test {
 namespace {
 
 constexpr int kFrames = 4;
+constexpr int kGradientSteps = 8;  ///< of newton: enough tasks for a test
 
 struct TestScene {
     const char* name;
@@ -44,6 +45,11 @@ const TestScene kScenes[] = {
     {"JpgdSolids", kSolids, Method::kJpgd, "4c43707e7a0b96252a7ed6c18df6662a"},
     {"JpgdSewn", kSewn, Method::kJpgd, "dd0359d5ad943f6c88704b7b46e78527"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "b5e1dd06c0d5d8291ed21db2e9ebf69d"},
+    {"NewtonEverything", kEverything, Method::kNewton, "cee5fa2ceb681ed46f2b3b886f25d0d5"},
+    {"NewtonSolids", kSolids, Method::kNewton, "ca6e2cdf5e1ebe96756123c7f8ced04b"},
+    {"NewtonSewn", kSewn, Method::kNewton, "12c6c8e864d86e65b04735421b5b436c"},
+    {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
+    {"NewtonWoven", kWoven, Method::kNewton, "2e7bddb8126824228e2922872b38ec25"},
     {"JpgdWoven", kWoven, Method::kJpgd, "c24b65155926a940791870c2af96d7e9"},
 };
 
@@ -63,6 +69,7 @@ class Determinism : public testing::TestWithParam<TestScene> {
 protected:
     Determinism() : scene_(parse_scene(GetParam().text, "test.toml")) {
         scene_.solver.method = GetParam().method;
+        scene_.solver.cg_steps = kGradientSteps;
     }
 
     std::string hash_on(const std::string& devices, const DeviceOptions& options = {},
@@ -200,6 +207,7 @@ TEST_P(DeterminismScene, TouchesAllObstacles) {
     // Each obstacle taken away changes the outcome, so none is there for nothing.
     Scene whole = parse_scene(GetParam().text, "test.toml");
     whole.solver.method = GetParam().method;
+    whole.solver.cg_steps = kGradientSteps;
     ManualRun all(whole);
     all.run(kFrames);
     for (std::size_t i = 0; i < whole.obstacles.size(); ++i) {

@@ -17,7 +17,7 @@ protected:
 };
 std::string name_of_method(const testing::TestParamInfo<Method>& info);
 inline const auto kMethods =
-    testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd);
+    testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd, Method::kNewton);
 
 // The state in scene order, xyz after xyz.
 std::vector<float> positions(const ManualRun& run);

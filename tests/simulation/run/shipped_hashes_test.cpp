@@ -23,26 +23,32 @@ const Shipped kShipped[] = {
     {"sheet", Method::kVbd, "0dde1e5a80a085dab59a1d0c39e6ce3d"},
     {"sheet", Method::kSosd, "351018342033c098dea001a51ae22d50"},
     {"sheet", Method::kJpgd, "6c88dc495339b3f516ded6d817cfda83"},
+    {"sheet", Method::kNewton, "0235586c46029a0176cf64e5d86bdfaa"},
     {"beams", Method::kXpbd, "a2873b8680f776c1f2c8ec683d4ed7f2"},
     {"beams", Method::kVbd, "d35da203e88f0f8e0f9722139d61c957"},
     {"beams", Method::kSosd, "e59a7841b0bf9783284166f2393afe36"},
     {"beams", Method::kJpgd, "bbcbd186ecb4818f25c30d06026990a0"},
+    {"beams", Method::kNewton, "0ea32d20684a4cd02e5e0dd3d3daf7f6"},
     {"hammock", Method::kXpbd, "af152f4766fd8820b8554038bb58b28c"},
     {"hammock", Method::kVbd, "536463dd0ccc5e698c4141538926075f"},
     {"hammock", Method::kSosd, "f95c507622fbe8f2971bd526723c126e"},
     {"hammock", Method::kJpgd, "8bedba7de7d1ed0a764d51afe4aa884b"},
+    {"hammock", Method::kNewton, "2290d768fbfa8d74e932e44dfdc3e4d0"},
     {"tablecloth", Method::kXpbd, "ac3803c8a2f370300f5316c7ccd3d25a"},
     {"tablecloth", Method::kVbd, "4ec49eb0987397d55f7ac58f76dcd4a1"},
     {"tablecloth", Method::kSosd, "2a657642ed43168e3a69fb58596577e1"},
     {"tablecloth", Method::kJpgd, "c46031a7476a4a6a75f61a99c88f33e2"},
+    {"tablecloth", Method::kNewton, "af0dd3b3ba727263c38da108ff26dbb9"},
     {"skirt", Method::kXpbd, "1f941d1519eb5440eb22682f11f852b4"},
     {"skirt", Method::kVbd, "548746c1e10ce4ca774362deaca420d9"},
     {"skirt", Method::kSosd, "02e0357fea43fee11bb7e2193632af8d"},
     {"skirt", Method::kJpgd, "c1aef98dae32dc63f55a110a9ac94835"},
+    {"skirt", Method::kNewton, "9e679995d207f99ee25ed642657381d9"},
     {"flag", Method::kXpbd, "0608408e72a6eda2a95e0fde49ddf1d0"},
     {"flag", Method::kVbd, "bc30f1deea206df974786de1ba9154ea"},
     {"flag", Method::kSosd, "765b74329ea8364bdb67ddf157f77df9"},
     {"flag", Method::kJpgd, "da8ba60a351c86fe30fa8f883f039033"},
+    {"flag", Method::kNewton, "89305729d3acc468a894008f8bea6a0c"},
 };
 
 std::string hash_after_two_frames(const Scene& scene) {
@@ -73,7 +79,8 @@ TEST_P(ShippedScenes, SkirtWithFlatRestHasItsOldHash) {
     const std::map<Method, std::string> kOld{{Method::kXpbd, "9fa93d78767c8aff2bb3b57a39d685dd"},
                                              {Method::kVbd, "df3fd301e2891bc14fcbab03fb24ebda"},
                                              {Method::kSosd, "a757e79f8293384321b3cd3da3c1f598"},
-                                             {Method::kJpgd, "e3da0ce8bbd8708cb24be8153672a9ab"}};
+                                             {Method::kJpgd, "e3da0ce8bbd8708cb24be8153672a9ab"},
+                                             {Method::kNewton, "0d0f5b69d667bdc91ad3c977f50311c0"}};
     if (std::string(GetParam().scene) != "skirt") return;
     Scene scene = read_scene(std::string(WEFT_SCENES) + "/skirt.toml");
     scene.solver.method = GetParam().method;

@@ -115,7 +115,8 @@ std::string name_of_case(
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Accesses,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
-                                                          Method::kSosd, Method::kJpgd),
+                                                          Method::kSosd, Method::kJpgd,
+                                                          Method::kNewton),
                                           testing::Values(&kEverything, &kSolids, &kWoven, &kSewn)),
                          name_of_case);
 

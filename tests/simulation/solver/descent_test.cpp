@@ -124,6 +124,7 @@ TEST_P(Descent, LowersTheEnergyAndReachesItsMinimum) {
     ASSERT_GT(whole, 0.1 * minimum.start_energy) << "there is something to do";
     double last = 1.0;
     for (const int iterations : {1, 2, 4, 8, 16, 32, 64, 128, 256, 512}) {
+        if (method == Method::kNewton && iterations > 32) break;
         const double energy = OneStep(scene, method, iterations).energy_after_run();
         const double error = (energy - minimum.energy) / whole;
         EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
@@ -150,7 +151,7 @@ std::string name_of_method(
 
 INSTANTIATE_TEST_SUITE_P(Methods, Descent,
                          testing::Combine(testing::Values(Method::kVbd, Method::kSosd,
-                                                          Method::kJpgd),
+                                                          Method::kJpgd, Method::kNewton),
                                           testing::Values(&kSheet, &kFilm, &kBeam, &kTube)),
                          name_of_method);
 
@@ -166,13 +167,17 @@ TEST(ShippedScenes, EverySolverLowersTheEnergyOfAStep) {
             SCOPED_TRACE(entry.path().filename().string() + ", " + name);
             const Method method = method_named(name);
             const double start = OneStep(scene, method, 1).start_energy();
-            const bool descends = method == Method::kVbd || method == Method::kSosd;
+            const bool descends =
+                method == Method::kVbd || method == Method::kSosd || method == Method::kNewton;
             double last = start;
             // XPBD projects, and does not descend: its first iterations may raise E.
             for (int iterations = method == Method::kXpbd ? 16 : 1; iterations <= 64;
                  iterations *= 4) {
                 const double energy = OneStep(scene, method, iterations).energy_after_run();
-                EXPECT_LT(energy, descends ? last : start) << iterations << " iterations";
+                if (method == Method::kNewton && iterations > 1)
+                    EXPECT_LT(energy, last + 1e-5 * start) << "it is at the minimum";
+                else
+                    EXPECT_LT(energy, descends ? last : start) << iterations << " iterations";
                 last = energy;
             }
         }

@@ -1,0 +1,142 @@
+#include "simulation/solver/newton/hessian.h"
+
+#include <algorithm>
+
+#include "kernels/newton/blocks.h"
+#include "simulation/solver/newton/accesses.h"
+
+namespace weft {
+
+namespace {
+
+template <class Rows>
+std::vector<int> lengths_of(const Rows& rows) {
+    std::vector<int> lengths;
+    for (const auto& row : rows) lengths.push_back(static_cast<int>(row.size()));
+    return lengths;
+}
+
+}  // namespace
+
+/// By ascending neighbour, and per neighbour by ascending element.
+FamilyHessian::Rows FamilyHessian::rows_of(const ElementFamily& family, int vertex_count) {
+    Rows rows(static_cast<std::size_t>(vertex_count));
+    for (int e = 0; e < family.count(); ++e) {
+        const auto corners = family.corners(e);
+        for (std::size_t j = 0; j < corners.size(); ++j) {
+            auto& row = rows[static_cast<std::size_t>(corners[j])];
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                if (k == j) continue;
+                auto at = std::ranges::lower_bound(row, corners[k], {}, &Neighbour::vertex);
+                if (at == row.end() || at->vertex != corners[k]) {
+                    at = row.insert(at, {corners[k], {}});
+                }
+                at->contributions.push_back({e, static_cast<int>(j), static_cast<int>(k)});
+            }
+        }
+    }
+    return rows;
+}
+
+FamilyHessian::FamilyHessian(const ElementFamily& family, const VertexItems& items,
+                             const Model& model)
+    : FamilyHessian(family, items, model, rows_of(family, model.vertex_count())) {}
+
+FamilyHessian::FamilyHessian(const ElementFamily& family, const VertexItems& items,
+                             const Model& model, const Rows& rows)
+    : vertex_count_(model.vertex_count()),
+      columns_(family.block_columns()),
+      rows_(family.names().name + ".blocks.rows", items.segment_begin(), lengths_of(rows)),
+      others_(family.names().name + ".blocks.others",
+              static_cast<std::size_t>(rows_.entry_count())),
+      entry_begin_(family.names().name + ".blocks.strips", model.strips.begin.size()),
+      blocks_(family.names().name + ".blocks",
+              others_.count() * static_cast<std::size_t>(columns_)),
+      vertices_(model.vertices()),
+      entries_{&entry_begin_, 0, 1, model.strips.count()},
+      contributions_(family.make_block_rows(place(rows, model.strips))) {}
+
+/// Fills the tables of rows, and lists what contributes to each entry.
+BlockList FamilyHessian::place(const Rows& rows, const Strips& strips) {
+    BlockList list;
+    list.blocks.resize(others_.count());
+    for (int v = 0; v < vertex_count_; ++v) {
+        const auto& row = rows[static_cast<std::size_t>(v)];
+        for (int k = 0; k < rows_.length(v); ++k) {
+            const std::size_t entry = rows_.entry(v, k);
+            const auto place = static_cast<std::size_t>(k);
+            others_[entry] = place < row.size() ? row[place].vertex : v;
+            if (place < row.size()) list.blocks[entry] = row[place].contributions;
+        }
+    }
+    for (std::size_t s = 0; s < strips.begin.size(); ++s) {
+        const int first = strips.begin[s];
+        entry_begin_[s] =
+            first < vertex_count_ ? static_cast<int>(rows_.entry(first, 0)) : rows_.entry_count();
+    }
+    const auto begins = entry_begin_.span();
+    list.segment_begin.assign(begins.begin(), begins.end());
+    return list;
+}
+
+Launch FamilyHessian::couple(const LinearisedAt& where) {
+    return contributions_->couple({entries_, where.positions, where.before, where.after, blocks_,
+                                   rows_.entry_count(), columns_, 1});
+}
+
+Launch FamilyHessian::sum_rows(Buffer<float>& sums, int fresh) {
+    return launch(kernels::sum_block_rows, vertices_, rows_.slices(), blocks_, sums, vertex_count_,
+                  rows_.entry_count(), columns_, SlicedRows::kStride, fresh);
+}
+
+Launch FamilyHessian::multiply(Buffer<float4>& directions, Buffer<float>& products, int fresh) {
+    if (columns_ == 1) {
+        return launch(kernels::multiply_scalar_blocks, vertices_, directions, rows_.slices(),
+                      others_, blocks_, products, vertex_count_, SlicedRows::kStride, fresh);
+    }
+    const auto multiply_by = [&](auto kernel) {
+        return launch(kernel, vertices_, directions, rows_.slices(), others_, blocks_, products,
+                      vertex_count_, rows_.entry_count(), SlicedRows::kStride, fresh);
+    };
+    return columns_ == 6 ? multiply_by(kernels::multiply_symmetric_blocks)
+                         : multiply_by(kernels::multiply_blocks);
+}
+
+void FamilyHessian::add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes) {
+    add_columns(task, blocks_, rows_.entry_count(), columns_, entries_.item(first_strip),
+                entries_.item(end_strip), writes);
+}
+
+Hessian::Hessian(const Model& model, const VertexItems& items) {
+    for (const auto& family : model.families) {
+        families_.push_back(std::make_unique<FamilyHessian>(*family, items, model));
+    }
+}
+
+std::vector<Launch> Hessian::couple(const LinearisedAt& where) {
+    std::vector<Launch> launches;
+    for (const auto& family : families_) launches.push_back(family->couple(where));
+    return launches;
+}
+
+std::vector<Launch> Hessian::sum_rows(Buffer<float>& sums) {
+    std::vector<Launch> launches;
+    for (const auto& family : families_) {
+        launches.push_back(family->sum_rows(sums, launches.empty() ? 1 : 0));
+    }
+    return launches;
+}
+
+std::vector<Launch> Hessian::multiply(Buffer<float4>& directions, Buffer<float>& products) {
+    std::vector<Launch> launches;
+    for (const auto& family : families_) {
+        launches.push_back(family->multiply(directions, products, launches.empty() ? 1 : 0));
+    }
+    return launches;
+}
+
+void Hessian::add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes) {
+    for (const auto& family : families_) family->add_accesses(task, first_strip, end_strip, writes);
+}
+
+}  // namespace weft

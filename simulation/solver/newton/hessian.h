@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/step.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// Where the system is made, and where the last step started and led to (kernels/newton/springs.h).
+struct LinearisedAt {
+    Buffer<float4>& positions;
+    Buffer<float4>& before;
+    Buffer<float4>& after;
+};
+
+/// The projected Hessian of one family of elements, as blocks of neighbouring vertices: per vertex
+/// a row of them. See kernels/newton/blocks.h.
+class FamilyHessian {
+public:
+    FamilyHessian(const ElementFamily& family, const VertexItems& items, const Model& model);
+
+    /// Makes the blocks anew.
+    Launch couple(const LinearisedAt& where);
+    /// Adds the vertices' own blocks to the Hessian's columns of `sums` (kernels/descent/rows.h),
+    /// or puts them there where fresh is 1.
+    Launch sum_rows(Buffer<float>& sums, int fresh);
+    /// products += H directions, or, where fresh is 1, = H directions
+    Launch multiply(Buffer<float4>& directions, Buffer<float>& products, int fresh);
+    /// What a task over these strips needs of the blocks.
+    void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
+
+private:
+    /// A block of a row.
+    struct Neighbour {
+        int vertex = 0;
+        std::vector<BlockList::Contribution> contributions;
+    };
+    using Rows = std::vector<std::vector<Neighbour>>;  ///< [vertices]
+    static Rows rows_of(const ElementFamily& family, int vertex_count);
+    FamilyHessian(const ElementFamily& family, const VertexItems& items, const Model& model,
+                  const Rows& rows);
+    BlockList place(const Rows& rows, const Strips& strips);
+
+    int vertex_count_;
+    int columns_;
+    SlicedRows rows_;
+    Buffer<int> others_;
+    Buffer<int> entry_begin_;  ///< [strips + 1]
+    Buffer<float> blocks_;
+    Segments vertices_, entries_;
+    std::unique_ptr<BlockRows> contributions_;
+};
+
+/// Those of all families.
+class Hessian {
+public:
+    Hessian(const Model& model, const VertexItems& items);
+
+    std::vector<Launch> couple(const LinearisedAt& where);
+    std::vector<Launch> sum_rows(Buffer<float>& sums);
+    std::vector<Launch> multiply(Buffer<float4>& directions, Buffer<float>& products);
+    void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
+
+private:
+    std::vector<std::unique_ptr<FamilyHessian>> families_;
+};
+
+}  // namespace weft

@@ -1,0 +1,340 @@
+#include "simulation/solver/newton/newton.h"
+
+#include <algorithm>
+
+#include "kernels/descent/substep.h"
+#include "kernels/newton/control.h"
+#include "kernels/vbd/solve.h"
+#include "simulation/solver/energy_sum.h"
+#include "simulation/solver/newton/accesses.h"
+#include "simulation/solver/newton/conjugate_gradients.h"
+
+namespace weft {
+
+namespace {
+
+enum Kind {
+    kPredict,
+    kLinearise,
+    kCoarse,
+    kFactor,
+    kInvert,
+    kCorrect,
+    kProduct,
+    kAdvance,
+    kMove,
+    kSeams,
+    kStrips,
+    kEnergy,
+    kDecide,
+    kRevert,
+    kVelocities,
+    kMomentum
+};
+
+constexpr int kCoarseEvery = 5;  ///< iterations
+constexpr float kSlack = 1.00001f;
+constexpr float kSlackWithObstacles = 2.0f;
+
+/// Sweeps of vertex block descent (sweeps.h).
+struct Smoother {
+    Smoother(Model& model, DescentSubstep& substep)
+        : items(make_vertex_layout(model.stencils(), model.strips)), derivatives(model, items) {
+        for (const Phase phase : {kSeamPhase, kInnerPhase}) {
+            TaskBody& body = phase == kSeamPhase ? seams : strips;
+            body.launches = derivatives.gather(phase, *model.positions);
+            body.launches.push_back(launch(kernels::solve_vertices, items.segments(phase),
+                                           *model.positions, substep.targets(), items.vertices(),
+                                           derivatives.sums(), items.count(),
+                                           static_cast<float>(1.0 / (model.h * model.h))));
+            body.taking_turns = static_cast<int>(body.launches.size());
+        }
+        substep.add_contacts(strips.launches, *model.positions);
+    }
+    VertexItems items;
+    VertexDerivatives derivatives;
+    TaskBody seams{"seams", kSeams, {}}, strips{"strips", kStrips, {}};
+};
+
+class NewtonSolver final : public Solver {
+public:
+    explicit NewtonSolver(Model& model)
+        : model_(model),
+          iterations_(model.scene.solver.iterations),
+          substep_(model),
+          gradients_(model, substep_),
+          smoother_(model, substep_),
+          energy_(model, substep_.targets()),
+          kept_("positions.kept", model.positions->count()),
+          control_("control", WEFT_CONTROL_SIZE),
+          first_strip_("first_strip", static_cast<std::size_t>(model.strips.count()) + 1) {
+        std::fill(first_strip_.data() + 1, first_strip_.data() + first_strip_.count(), 1);
+        if (model.obstacles) {
+            kept_targets_ = std::make_unique<Buffer<float4>>("targets.kept", kept_.count());
+        }
+        make_bodies();
+    }
+
+    std::vector<const TaskBody*> bodies() const override {
+        std::vector<const TaskBody*> list{
+            &predict_,         &linearise_,   &couple_,  &factor_, &invert_,
+            &correct_,         &product_,     &advance_, &move_,   &smoother_.seams,
+            &smoother_.strips, &energy_body_, &decide_,  &revert_, &velocities_};
+        if (substep_.has_free_bodies()) list.push_back(&momentum_);
+        return list;
+    }
+    std::vector<std::string> kinds() const override {
+        std::vector<std::string> names{"predict", "linearise", "coarse",  "factor", "invert",
+                                       "correct", "product",   "advance", "move",   "seams",
+                                       "strips",  "energy",    "decide",  "revert", "velocities"};
+        if (substep_.has_free_bodies()) names.push_back("momentum");
+        return names;
+    }
+    std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+
+    Step make_step(const Partition& partition) override {
+        regions_ = regions_of(partition);
+        Step step;
+        for (const Region& region : regions_) add_predict(step, region);
+        number_ = 0;
+        add_check(step);
+        for (int i = 0; i < iterations_; ++i) add_iteration(step, i);
+        if (model_.scene.solver.sweeps > 0) add_sweep(step);
+        for (const Region& region : regions_) {
+            if (!substep_.has_free_bodies()) break;
+            substep_.add_sum(step, momentum_, region, *model_.positions, number_);
+        }
+        for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
+        step.seal();
+        return step;
+    }
+
+private:
+    void make_bodies() {
+        const auto [positions, before, after] = gradients_.linearised_at();
+        predict_ = {"predict", kPredict, substep_.begin()};
+        predict_.launches.push_back(copy(*model_.previous, before));
+        predict_.launches.push_back(copy(*model_.previous, after));
+        substep_.add_contacts(predict_.launches, *model_.positions);
+        linearise_ = {"linearise", kLinearise, gradients_.linearise()};
+        couple_ = {"coarse", kCoarse, gradients_.coarse().couple(gradients_.linearised_at())};
+        factor_ = {"factor", kFactor, gradients_.coarse().factor()};
+        invert_ = {"invert", kInvert, gradients_.coarse().invert()};
+        correct_ = {"correct", kCorrect, gradients_.correct()};
+        product_ = {"product", kProduct, gradients_.product()};
+        advance_ = {"advance", kAdvance, gradients_.advance()};
+        make_control_bodies();
+        if (substep_.has_free_bodies()) {
+            momentum_ = {"momentum", kMomentum, substep_.sum_momentum(*model_.positions)};
+        }
+        velocities_ = {"velocities", kVelocities, substep_.end()};
+    }
+
+    void make_control_bodies() {
+        const Segments first{&first_strip_, 0, 1, model_.strips.count()};
+        const auto partials = static_cast<int>(energy_.partials().count());
+        const auto [positions, before, after] = gradients_.linearised_at();
+        move_ = {"move",
+                 kMove,
+                 {copy(positions, before),
+                  launch(kernels::move_by_solution, model_.vertices(), before, gradients_.moves(),
+                         control_, positions, model_.vertex_count()),
+                  copy(positions, after)}};
+        substep_.add_contacts(move_.launches, *model_.positions);
+        energy_body_ = {"energy", kEnergy, energy_.launches(*model_.positions)};
+        decide_ = {"decide",
+                   kDecide,
+                   {launch(kernels::decide_newton, first, control_, energy_.partials(), partials,
+                           model_.obstacles ? kSlackWithObstacles : kSlack, kIteration)}};
+        // The state comes last, and is what is kept; after a bad step the next system is that of
+        // the state as it is.
+        revert_ = {"revert",
+                   kRevert,
+                   {keep_or_revert(before, kept_), keep_or_revert(after, kept_),
+                    keep_or_revert(positions, kept_)}};
+        if (kept_targets_) {
+            revert_.launches.push_back(keep_or_revert(substep_.targets(), *kept_targets_));
+        }
+    }
+
+    Launch copy(Buffer<float4>& from, Buffer<float4>& to) {
+        return launch(kernels::copy_positions, model_.vertices(), from, to);
+    }
+
+    Launch keep_or_revert(Buffer<float4>& values, Buffer<float4>& kept) {
+        return launch(kernels::keep_or_revert, model_.vertices(), values, kept, control_);
+    }
+
+    /// The last iterations take the most.
+    int steps_of(int iteration) const {
+        const int most = model_.scene.solver.cg_steps;
+        return iteration > 20 ? most : std::min(most, std::max(1, most / 8) << iteration);
+    }
+
+    void add_iteration(Step& step, int iteration) {
+        ++number_;
+        for (const Region& region : regions_) {
+            auto task = step.add(linearise_, number_, region.begin, region.end, region.id);
+            gradients_.add_linearise_accesses(task, region.begin, region.end);
+        }
+        if (iteration % kCoarseEvery == 0) add_coarse(step);
+        for (int i = 0; i < steps_of(iteration); ++i) add_gradient_step(step);
+        add_move(step);
+        for (int i = 0; i < model_.scene.solver.sweeps; ++i) add_sweep(step);
+        ++number_;
+        add_check(step);
+    }
+
+    void add_coarse(Step& step) {
+        CoarseSpace& coarse = gradients_.coarse();
+        for (const Region& region : regions_) {
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
+            auto task = step.add(couple_, number_, region.begin, region.end, region.id);
+            const auto [positions, before, after] = gradients_.linearised_at();
+            task.reads(positions, halo_begin, halo_end)
+                .reads(before, halo_begin, halo_end)
+                .reads(after, halo_begin, halo_end);
+            coarse.add_couple_accesses(task, region.begin, region.end);
+        }
+        auto factor = step.add(factor_, number_, 0, 1, 0);
+        coarse.add_factor_accesses(factor);
+        for (const Region& region : regions_) {
+            auto task = step.add(invert_, number_, region.begin, region.end, region.id);
+            coarse.add_invert_accesses(task, region.begin, region.end);
+        }
+    }
+
+    /// What others need comes first, and what needs others last.
+    void add_gradient_step(Step& step) {
+        ++number_;
+        for (const Region& region : regions_) {
+            for_each_share(region, [&](int begin, int end) {
+                auto task = step.add(correct_, number_, begin, end, region.id);
+                gradients_.add_correct_accesses(task, begin, end);
+            });
+        }
+        for (const Region& region : regions_) {
+            for_each_share_inside_first(region, [&](int begin, int end) {
+                auto task = step.add(product_, number_, begin, end, region.id);
+                gradients_.add_product_accesses(task, begin, end);
+            });
+        }
+        for (const Region& region : regions_) {
+            auto task = step.add(advance_, number_, region.begin, region.end, region.id);
+            gradients_.add_advance_accesses(task, region.begin, region.end);
+        }
+    }
+
+    template <class Visit>
+    static void for_each_share_inside_first(const Region& region, Visit visit) {
+        std::vector<std::pair<int, int>> shares;
+        for_each_share(region, [&](int begin, int end) { shares.emplace_back(begin, end); });
+        std::ranges::reverse(shares);
+        for (const auto& [begin, end] : shares) visit(begin, end);
+    }
+
+    void add_predict(Step& step, const Region& region) {
+        const auto [first, last] = substep_.vertices(region.begin, region.end);
+        const auto [positions, before, after] = gradients_.linearised_at();
+        substep_.add_begin(step, predict_, region)
+            .updates(before, first, last)
+            .updates(after, first, last);
+    }
+
+    void add_move(Step& step) {
+        ++number_;
+        const auto [positions, before, after] = gradients_.linearised_at();
+        for (const Region& region : regions_) {
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            auto task = step.add(move_, number_, region.begin, region.end, region.id);
+            task.updates(positions, first, last)
+                .updates(before, first, last)
+                .updates(after, first, last)
+                .reads(control_, 0, WEFT_CONTROL_SIZE);
+            add_columns(task, gradients_.moves(), model_.vertex_count(), 3, first, last, false);
+            add_contact_accesses(task, first, last);
+        }
+    }
+
+    void add_contact_accesses(Step::Adding& task, int first, int last) {
+        substep_.add_contact_accesses(task, first, last);
+    }
+
+    void add_sweep(Step& step) {
+        ++number_;
+        for (const Region& region : regions_) {
+            for_each_part(
+                region, [&](int begin, int end) { add_seams(step, begin, end, region.id); },
+                [&](int begin, int end) {
+                    const auto [first, last] = substep_.vertices(begin, end);
+                    auto task = step.add(smoother_.strips, number_, begin, end, region.id);
+                    task.updates(*model_.positions, first, last)
+                        .reads(substep_.targets(), first, last);
+                    add_contact_accesses(task, first, last);
+                });
+        }
+    }
+
+    /// As in sweeps.cpp.
+    void add_seams(Step& step, int begin, int end, int region) {
+        const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
+        const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
+        const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
+        step.add(smoother_.seams, number_, begin, end, region)
+            .updates(*model_.positions, first, last)
+            .reads(*model_.positions, halo_begin, first)
+            .reads(*model_.positions, last, halo_end)
+            .reads(substep_.targets(), first, last);
+    }
+
+    void add_check(Step& step) {
+        const auto [positions, before, after] = gradients_.linearised_at();
+        const int columns = EnergySum::kColumns;
+        for (const Region& region : regions_) {
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
+            step.add(energy_body_, number_, region.begin, region.end, region.id)
+                .reads(positions, halo_begin, halo_end)
+                .reads(substep_.targets(), first, last)
+                .updates(energy_.partials(), columns * region.begin, columns * region.end);
+        }
+        step.add(decide_, number_, 0, 1, 0)
+            .reads(energy_.partials(), 0, columns * model_.strips.count())
+            .updates(control_, 0, WEFT_CONTROL_SIZE);
+        for (const Region& region : regions_) {
+            const auto [first, last] = substep_.vertices(region.begin, region.end);
+            auto task = step.add(revert_, number_, region.begin, region.end, region.id);
+            task.reads(control_, 0, WEFT_CONTROL_SIZE).updates(kept_, first, last);
+            for (Buffer<float4>* buffer : {&positions, &before, &after}) {
+                task.updates(*buffer, first, last);
+            }
+            if (!kept_targets_) continue;
+            task.updates(substep_.targets(), first, last).updates(*kept_targets_, first, last);
+        }
+    }
+
+    Model& model_;
+    int iterations_;
+    DescentSubstep substep_;
+    ConjugateGradients gradients_;
+    Smoother smoother_;
+    EnergySum energy_;
+    Buffer<float4> kept_;
+    std::unique_ptr<Buffer<float4>> kept_targets_;  ///< null: no obstacles, nothing moves targets
+    Buffer<float> control_;
+    Buffer<int> first_strip_;  ///< one item, in strip 0
+    TaskBody predict_, linearise_, couple_, factor_, invert_, correct_, product_, advance_;
+    TaskBody move_, energy_body_, decide_, revert_, velocities_;
+    TaskBody momentum_;            ///< empty: no free bodies
+    std::vector<Region> regions_;  ///< of the step that is made
+    int number_ = 0;               ///< of its tasks; traces call it their iteration
+};
+
+}  // namespace
+
+std::unique_ptr<Solver> make_newton_solver(Model& model) {
+    return std::make_unique<NewtonSolver>(model);
+}
+
+}  // namespace weft
