@@ -20,7 +20,7 @@ die() { printf 'bundle: error: %s\n' "$*" >&2; exit 1; }
 unused="libcurl.so.4 libcrypto.so.3 libxml2.so.2 libz3.so.4 libedit.so.2
         libbrotlidec.so.1 libzstd.so.1 libjansson.so.4
         libX11.so.6 libXext.so.6 libXrender.so.1 libxcb.so.1 libxcb-shm.so.0 libxcb-render.so.0"
-glibc="ld-linux-x86-64.so.2 libc.so.6 libm.so.6 libmvec.so.1 libpthread.so.0 libdl.so.2 librt.so.1 libresolv.so.2"
+glibc="ld-linux-x86-64.so.2 libc.so.6 libm.so.6 libpthread.so.0 libdl.so.2 librt.so.1"
 gcc="libstdc++.so.6 libgcc_s.so.1"
 # PoCL's built-in functions come once per family of processors, 9 MB each. This one serves all that have
 # AVX2; on older ones the launcher leaves PoCL out.
