@@ -10,10 +10,10 @@
 
 #include "runtime/device_list.h"
 #include "runtime/load_meter.h"
+#include "runtime/planning/division.h"
+#include "runtime/planning/plan_kind.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
-#include "simulation/planning/division.h"
-#include "simulation/planning/plan_kind.h"
 #include "simulation/snapshots.h"
 #include "simulation/solver/solver.h"
 
