@@ -1,15 +1,17 @@
 #include "simulation/reference/linear_solver.h"
 
-#include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+
+#include "simulation/reference/coarse_level.h"
+#include "simulation/reference/sparse_matrix.h"
 
 namespace weft {
 
 namespace {
 
-/// So many iterations with the diagonal blocks take about as long as a factorisation.
-constexpr int kDiagonalLimit = 2000;
+/// So many iterations with two levels take about as long as a factorisation.
+constexpr int kTwoLevelLimit = 1000;
 /// A factor of a similar matrix needs a few tens; more, and it is worth making a new one.
 constexpr int kFactorLimit = 60;
 
@@ -24,23 +26,6 @@ void add_scaled(std::span<Vec3> to, double s, std::span<const Vec3> from) {
     for (std::size_t v = 0; v < to.size(); ++v) to[v] = to[v] + s * from[v];
 }
 
-Eigen::Matrix3d to_eigen(const Mat3& m) {
-    Eigen::Matrix3d e;
-    for (Eigen::Index r = 0; r < 3; ++r) {
-        const Vec3& row = m.rows[static_cast<std::size_t>(r)];
-        e.row(r) << row.x, row.y, row.z;
-    }
-    return e;
-}
-
-Mat3 to_mat3(const Eigen::Matrix3d& e) {
-    Mat3 m;
-    for (Eigen::Index r = 0; r < 3; ++r) {
-        m.rows[static_cast<std::size_t>(r)] = {e(r, 0), e(r, 1), e(r, 2)};
-    }
-    return m;
-}
-
 }  // namespace
 
 class LinearSolver::Preconditioner {
@@ -49,60 +34,42 @@ public:
     virtual void apply(std::span<const Vec3> from, std::span<Vec3> to) const = 0;
 };
 
-class LinearSolver::DiagonalBlocks final : public Preconditioner {
+/// The diagonal blocks for what is rough, a coarse level for what is smooth.
+class LinearSolver::TwoLevels final : public Preconditioner {
 public:
-    explicit DiagonalBlocks(const BlockMatrix& a)
-        : inverses_(static_cast<std::size_t>(a.rows()), Mat3{{Vec3{}, {}, {}}}) {
+    explicit TwoLevels(const BlockMatrix& a)
+        : inverses_(static_cast<std::size_t>(a.rows())), coarse_(a) {}
+
+    /// False: the matrix is not positive definite.
+    bool take(const BlockMatrix& a) { return take_blocks(a) && coarse_.factor(a); }
+
+    void apply(std::span<const Vec3> from, std::span<Vec3> to) const override {
+        for (std::size_t v = 0; v < to.size(); ++v) to[v] = inverses_[v] * from[v];
+        coarse_.add_solution(from, to);
+    }
+
+private:
+    bool take_blocks(const BlockMatrix& a) {
         for (int v = 0; v < a.rows(); ++v) {
+            Mat3& inverse = inverses_[static_cast<std::size_t>(v)];
+            inverse = {{Vec3{}, {}, {}}};
             const int slot = a.find(v, v);
             if (slot < 0) continue;
             const Eigen::LLT<Eigen::Matrix3d> block(
                 to_eigen(a.blocks()[static_cast<std::size_t>(slot)]));
-            if (block.info() != Eigen::Success) {
-                is_definite_ = false;
-                return;
-            }
-            const Eigen::Matrix3d inverse = block.solve(Eigen::Matrix3d::Identity());
-            inverses_[static_cast<std::size_t>(v)] = to_mat3(inverse);
+            if (block.info() != Eigen::Success) return false;
+            inverse = to_mat3(block.solve(Eigen::Matrix3d::Identity()));
         }
-    }
-    bool is_definite() const { return is_definite_; }
-
-    void apply(std::span<const Vec3> from, std::span<Vec3> to) const override {
-        for (std::size_t v = 0; v < to.size(); ++v) to[v] = inverses_[v] * from[v];
+        return true;
     }
 
-private:
     std::vector<Mat3> inverses_;
-    bool is_definite_ = true;
+    CoarseLevel coarse_;
 };
 
 class LinearSolver::Factor final : public Preconditioner {
 public:
-    explicit Factor(const BlockMatrix& a) {
-        Eigen::SparseMatrix<double> lower(3 * a.rows(), 3 * a.rows());
-        std::vector<Eigen::Triplet<double>> entries;
-        for (int v = 0; v < a.rows(); ++v) {
-            const auto row = static_cast<std::size_t>(v);
-            if (a.row_begin()[row] == a.row_begin()[row + 1]) {
-                for (int k = 0; k < 3; ++k) entries.emplace_back(3 * v + k, 3 * v + k, 1.0);
-            }
-            for (int slot = a.row_begin()[row]; slot < a.row_begin()[row + 1]; ++slot) {
-                const int column = a.columns()[static_cast<std::size_t>(slot)];
-                if (column > v) break;
-                const Eigen::Matrix3d block = to_eigen(a.blocks()[static_cast<std::size_t>(slot)]);
-                for (int r = 0; r < 3; ++r) {
-                    for (int c = 0; c < 3; ++c) {
-                        if (3 * v + r >= 3 * column + c) {
-                            entries.emplace_back(3 * v + r, 3 * column + c, block(r, c));
-                        }
-                    }
-                }
-            }
-        }
-        lower.setFromTriplets(entries.begin(), entries.end());
-        solver_.compute(lower);
-    }
+    explicit Factor(const BlockMatrix& a) : solver_(lower_triangle(a)) {}
     bool is_definite() const {
         return solver_.info() == Eigen::Success && solver_.vectorD().minCoeff() > 0.0;
     }
@@ -124,9 +91,9 @@ LinearSolver::~LinearSolver() = default;
 LinearSolver::Result LinearSolver::solve(const BlockMatrix& a, std::span<const Vec3> b,
                                          double tolerance, std::span<Vec3> x) {
     if (!factor_) {
-        const DiagonalBlocks diagonal(a);
-        if (!diagonal.is_definite()) return Result::kIndefinite;
-        const Result result = iterate(a, diagonal, b, tolerance, kDiagonalLimit, x);
+        if (!two_levels_) two_levels_ = std::make_unique<TwoLevels>(a);
+        if (!two_levels_->take(a)) return Result::kIndefinite;
+        const Result result = iterate(a, *two_levels_, b, tolerance, kTwoLevelLimit, x);
         if (result != Result::kStuck) return result;
     } else {
         const Result result = iterate(a, *factor_, b, tolerance, kFactorLimit, x);

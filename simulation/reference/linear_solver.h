@@ -9,8 +9,8 @@
 namespace weft {
 
 /// Solves A x = b for sparse symmetric A by conjugate gradients: preconditioned by A's diagonal
-/// blocks, and where these do not serve (stiff material, long steps) by a sparse factorisation,
-/// which then serves for the similar matrices of later calls, too.
+/// blocks and a coarse level, and where these do not serve by a sparse factorisation, which then
+/// serves for the similar matrices of later calls, too. All calls: matrices with the same blocks.
 class LinearSolver {
 public:
     LinearSolver();
@@ -33,11 +33,12 @@ public:
 
 private:
     class Preconditioner;
-    class DiagonalBlocks;
+    class TwoLevels;
     class Factor;
     Result iterate(const BlockMatrix& a, const Preconditioner& preconditioner,
                    std::span<const Vec3> b, double tolerance, int limit, std::span<Vec3> x);
 
+    std::unique_ptr<TwoLevels> two_levels_;
     std::unique_ptr<Factor> factor_;
     long iterations_ = 0;
     int factorisations_ = 0;

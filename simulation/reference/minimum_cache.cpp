@@ -12,7 +12,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be raised when the meaning of the file or of an energy changes.
-constexpr double kVersion = 1;
+constexpr double kVersion = 2;
+
+/// The last digits of E - E*: errors are told to 1e-8 or so. (Those of x would take as long again.)
+constexpr double kEnoughGap = 1e-15;
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -77,14 +80,23 @@ bool read_minimum(const fs::path& path, const IncrementalPotential& potential, M
            potential.energy(potential.predicted()) == minimum.start_energy;
 }
 
+std::vector<Vec3> start_of(const IncrementalPotential& potential,
+                           const std::function<std::vector<Vec3>()>& guess) {
+    std::vector<Vec3> start = guess ? guess() : std::vector<Vec3>{};
+    const bool is_better = start.size() == potential.predicted().size() &&
+                           potential.energy(start) < potential.energy(potential.predicted());
+    return is_better ? start : potential.predicted();
+}
+
 }  // namespace
 
 Minimum find_minimum(IncrementalPotential& potential,
+                     const std::function<std::vector<Vec3>()>& guess,
                      const std::function<void(const Certificate&)>& progress) {
     const fs::path path = cached_file(potential);
     Minimum minimum;
     if (!path.empty() && read_minimum(path, potential, minimum)) return minimum;
-    minimum = minimise(potential, potential.predicted(), progress);
+    minimum = minimise(potential, start_of(potential, guess), progress, kEnoughGap);
     if (!path.empty() && minimum.certificate.relative_gap <= kSolvedGap) {
         write_cached(path, to_bytes(minimum));
     }

@@ -126,7 +126,7 @@ private:
 }  // namespace
 
 Minimum minimise(IncrementalPotential& potential, std::vector<Vec3> start,
-                 const std::function<void(const Certificate&)>& progress) {
+                 const std::function<void(const Certificate&)>& progress, double enough) {
     Minimum minimum;
     minimum.start_energy = potential.energy(potential.predicted());
     Newton newton(potential, std::move(start));
@@ -136,7 +136,8 @@ Minimum minimise(IncrementalPotential& potential, std::vector<Vec3> start,
         certificate.relative_gap =
             newton.gap() / std::max(minimum.start_energy - newton.energy(), newton.gap());
         if (progress) progress(certificate);
-        if (newton.is_done() || certificate.iterations == kMaxIterations || !newton.step()) break;
+        if (newton.is_done() || certificate.relative_gap <= enough) break;
+        if (certificate.iterations == kMaxIterations || !newton.step()) break;
         ++certificate.iterations;
     }
     minimum.x = newton.x();

@@ -33,7 +33,9 @@ inline constexpr double kSolvedGap = 1e-9;
 /// is positive definite, else with a part of the elements' negative curvature projected away (all
 /// of it: Teran et al. 2005), and a backtracking line search. Deterministic. Check the certificate:
 /// `relative_gap` beyond kSolvedGap is no minimum. progress: told of each iteration; may be empty
+/// enough: a relative gap to stop at; 0: goes on to the last digits of the positions
 Minimum minimise(IncrementalPotential& potential, std::vector<Vec3> start,
-                 const std::function<void(const Certificate&)>& progress = {});
+                 const std::function<void(const Certificate&)>& progress = {},
+                 double enough = 0.0);
 
 }  // namespace weft

@@ -147,6 +147,26 @@ double MeasuredCurve::least_energy() const {
     return least;
 }
 
+std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem) {
+    constexpr int kIterations = 100;
+    RunOptions run = options.run;
+    run.solver = "newton";
+    run.device = "cpu";
+    const auto most = most_iterations(scene_of_step(options, *run.solver, 1).solver);
+    try {
+        const MeasuredCurve reached = to_curve(in_child_process("newton on cpu", [&] {
+            RepeatedStep step(options, run, problem, std::min(kIterations, most));
+            step.advance();
+            MeasuredCurve end;
+            end.positions = step.positions();
+            return to_bytes(end);
+        }));
+        return problem.from_scene_order(reached.positions);
+    } catch (const RunError&) {
+        return {};
+    }
+}
+
 MeasuredCurve measure_curve(const ErrorOptions& options, const RunOptions& run,
                             const ErrorProblem& problem) {
     return to_curve(in_child_process(fmt::format("{} on {}", *run.solver, run.device), [&] {

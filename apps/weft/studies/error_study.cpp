@@ -23,13 +23,14 @@ void check_solved(const Certificate& certificate) {
         certificate.iterations, certificate.relative_gap));
 }
 
-Minimum solve(ErrorProblem& problem, bool quiet) {
+Minimum solve(const ErrorOptions& options, ErrorProblem& problem) {
     const auto tell = [&](const Certificate& c) {
-        if (quiet) return;
+        if (options.run.quiet) return;
         std::cerr << fmt::format("reference: {} iterations, {:.1e} of the energy left to gain\n",
                                  c.iterations, c.relative_gap);
     };
-    Minimum minimum = find_minimum(*problem.potential, tell);
+    Minimum minimum =
+        find_minimum(*problem.potential, [&] { return good_guess(options, problem); }, tell);
     check_solved(minimum.certificate);
     return minimum;
 }
@@ -130,7 +131,7 @@ ErrorStudy study_errors(const ErrorOptions& options) {
     ErrorProblem problem(options, state_at(options, scene, frame), frame * scene.substeps);
     study.vertices = problem.model.vertex_count();
     describe(study, scene, problem.model);
-    study.minimum = solve(problem, options.run.quiet);
+    study.minimum = solve(options, problem);
     constexpr double kLostInRounding = 0.1;
     if (!(rounding_floor(problem, study.minimum) < kLostInRounding)) {
         throw UserError(
