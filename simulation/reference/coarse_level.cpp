@@ -74,8 +74,7 @@ bool CoarseLevel::factor(const BlockMatrix& a) {
     if (!is_analysed_) solver_.analyzePattern(lower);
     is_analysed_ = true;
     solver_.factorize(lower);
-    return solver_.info() == Eigen::Success &&
-           (count_ == 0 || solver_.vectorD().minCoeff() > 0.0);
+    return solver_.info() == Eigen::Success && (count_ == 0 || solver_.vectorD().minCoeff() > 0.0);
 }
 
 void CoarseLevel::add_solution(std::span<const Vec3> from, std::span<Vec3> to) const {

@@ -35,7 +35,6 @@ inline constexpr double kSolvedGap = 1e-9;
 /// `relative_gap` beyond kSolvedGap is no minimum. progress: told of each iteration; may be empty
 /// enough: a relative gap to stop at; 0: goes on to the last digits of the positions
 Minimum minimise(IncrementalPotential& potential, std::vector<Vec3> start,
-                 const std::function<void(const Certificate&)>& progress = {},
-                 double enough = 0.0);
+                 const std::function<void(const Certificate&)>& progress = {}, double enough = 0.0);
 
 }  // namespace weft

@@ -29,8 +29,8 @@ Minimum solve(const ErrorOptions& options, ErrorProblem& problem) {
         std::cerr << fmt::format("reference: {} iterations, {:.1e} of the energy left to gain\n",
                                  c.iterations, c.relative_gap);
     };
-    Minimum minimum =
-        find_minimum(*problem.potential, [&] { return good_guess(options, problem); }, tell);
+    Minimum minimum = find_minimum(
+        *problem.potential, [&] { return good_guess(options, problem); }, tell);
     check_solved(minimum.certificate);
     return minimum;
 }
