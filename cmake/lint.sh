@@ -49,7 +49,7 @@ simulation/scene     runtime|simulation/(mesh|scene|element_families.h)
 simulation/bodies    runtime|simulation/(mesh|scene|bodies)
 simulation/families  kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|bodies|topology|families|element_families.h)
 simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
-simulation/solver    kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|topology|families|model|solver)
+simulation/solver    kernels|scheduler/(assert|exchange_map).h|runtime|simulation/(mesh|scene|topology|families|model|solver)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|reference)
 simulation/output    runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps

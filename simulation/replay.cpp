@@ -26,6 +26,11 @@ SimulationOptions without_planning(const SimulationOptions& options, const RunDe
     own.device_options = options.device_options;
     own.calibrate = false;
     own.iterates = recorded_iterates(run);
+    for (const auto& [name, value] : run.settings) {
+        if (name != "async") continue;
+        own.plan = PlanKind::kAsync;
+        own.async = parse_async_settings(value);
+    }
     own.on_trouble = OnTrouble::kReport;  // the run went on, too
     return own;
 }

@@ -7,6 +7,7 @@
 
 #include "simulation/bodies/mesh_files.h"
 #include "simulation/diagnostics.h"
+#include "simulation/solver/async_iterates.h"
 
 namespace weft {
 
@@ -23,6 +24,9 @@ TextPairs settings_of(const Model& model, const Solver& solver) {
                        {"strips", std::to_string(model.strips.count())}};
     if (solver.iterate_count() > 1) {
         settings.emplace_back("iterates", std::to_string(solver.iterate_count()));
+    }
+    if (const auto* async = dynamic_cast<const AsyncIterates*>(&solver)) {
+        settings.emplace_back("async", to_text(async->settings()));
     }
     if (!scene.overrides.empty()) {
         settings.emplace_back("set", fmt::format("{}", fmt::join(scene.overrides, "\n")));

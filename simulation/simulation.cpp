@@ -10,6 +10,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/diagnosis.h"
 #include "simulation/run_description.h"
+#include "simulation/solver/async_iterates.h"
 #include "simulation/solver/own_iterates.h"
 #include "simulation/start_checks.h"
 #include "simulation/watch.h"
@@ -18,9 +19,14 @@ namespace weft {
 
 namespace {
 
-/// With as many iterates as the options ask for.
-std::unique_ptr<Solver> make_solver_for(Model& model, const SimulationOptions& options) {
+/// With as many iterates as the options ask for, or asynchronous devices need.
+std::unique_ptr<Solver> make_solver_for(Model& model, const SimulationOptions& options,
+                                        std::size_t devices) {
     auto solver = options.make_solver(model);
+    if (options.plan == PlanKind::kAsync) {
+        const int iterates = std::max(options.iterates, static_cast<int>(devices));
+        return std::make_unique<AsyncIterates>(model, std::move(solver), iterates, options.async);
+    }
     if (options.iterates == 1) return solver;
     return std::make_unique<OwnIterates>(model, std::move(solver), options.iterates);
 }
@@ -56,7 +62,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
                        const SimulationOptions& options, Warnings& warnings)
     : options_(options),
       model_(std::make_shared<Model>(scene, warnings)),
-      solver_(make_solver_for(*model_, options)),
+      solver_(make_solver_for(*model_, options, devices.size())),
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
                                      host_threads(devices))),
       first_substeps_(model_->scene.substeps) {
@@ -113,7 +119,7 @@ void Simulation::set_substeps(int substeps) {
     for (std::size_t v = 0; v < state.velocities.size(); ++v) {
         state.velocities[v].w = (*model->velocities)[v].w;  // what damping leaves per substep
     }
-    auto solver = make_solver_for(*model, options_);
+    auto solver = make_solver_for(*model, options_, run_->devices().size());
     model_.swap(model);
     solver_.swap(solver);
     run_->take_over(*solver_, model_->strips.count());  // while those before are there

@@ -13,6 +13,7 @@
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
 #include "simulation/snapshots.h"
+#include "simulation/solver/async_settings.h"
 #include "simulation/solver/solver.h"
 
 namespace weft {
@@ -36,6 +37,7 @@ struct SimulationOptions {
     std::filesystem::path cost_file;   ///< where costs are kept between runs; empty: nowhere
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
     int iterates = 1;                  ///< that devices may have of their own (Partition::spread)
+    AsyncSettings async;               ///< for PlanKind::kAsync
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
     OnTrouble on_trouble = OnTrouble::kStop;
@@ -54,7 +56,8 @@ struct Trouble {
     bool is_explosion = false;  ///< else it is only to be doubted
 };
 
-/// A scene on devices, frame by frame. The results do not depend on the devices or on the plans.
+/// A scene on devices, frame by frame. The results do not depend on the devices or on the plans,
+/// but for asynchronous ones.
 class Simulation {
 public:
     /// Throws UserError for a scene or devices that cannot be had.

@@ -110,10 +110,17 @@ void add_device_options(CLI::App& command, RunOptions& options) {
     command
         .add_option("--plan", options.plan,
                     "auto, exact (strips and seams), placed (each task where it is done best), "
-                    "async, single")
+                    "async (no device waits for another; other results), single")
         ->type_name("KIND")
         ->check(one_of({"auto", "exact", "placed", "async", "single"}))
         ->capture_default_str()
+        ->group(group);
+    command
+        .add_option("--async", options.async,
+                    "how --plan async exchanges: window=N (iterations open at a time, 2), wait=W "
+                    "(until another device is told, in iterations), merge=auto|sum|mean|position, "
+                    "dropping=on|off, settle=N (last iterations in step)")
+        ->type_name("KEY=VALUE,..")
         ->group(group);
     command
         .add_option("--math", options.math,

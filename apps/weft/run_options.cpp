@@ -25,9 +25,9 @@ PlanKind plan_kind(const std::string& name) {
     if (name == "auto") return PlanKind::kAuto;
     if (name == "exact") return PlanKind::kExact;
     if (name == "placed") return PlanKind::kPlaced;
+    if (name == "async") return PlanKind::kAsync;
     if (name == "single") return PlanKind::kSingle;
-    throw UserError(fmt::format(
-        "--plan {}: not in this version of weft; available: auto, exact, placed, single", name));
+    throw UserError(fmt::format("--plan {}: expected auto, exact, placed, async or single", name));
 }
 
 OnTrouble on_trouble_of(const std::string& name) {
@@ -69,6 +69,7 @@ SimulationOptions RunOptions::simulation() const {
     SimulationOptions options;
     options.devices = device;
     options.plan = plan_kind(plan);
+    options.async = parse_async_settings(async);
     options.device_options.strict_math = math == "strict";
     options.device_options.memory = memory_model(memory);
     if (!strips.empty()) options.division = Division{strips};

@@ -14,6 +14,7 @@ struct RunOptions {
     std::string scene;
     std::string device = "hybrid";
     std::string plan = "auto";
+    std::string async;  ///< how --plan async exchanges
     std::string math = "strict";
     std::string memory = "auto";
     std::string on_trouble = "stop";

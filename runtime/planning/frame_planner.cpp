@@ -72,6 +72,7 @@ bool FramePlanner::is_wanted(std::uint32_t alternative) const {
         case PlanKind::kAuto:
             return true;
         case PlanKind::kExact:
+        case PlanKind::kAsync:
             return !candidates_.is_placed(alternative);
         case PlanKind::kPlaced:
             return candidates_.is_placed(alternative);

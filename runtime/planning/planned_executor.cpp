@@ -44,10 +44,23 @@ void PlannedExecutor::open() {
     const double epoch = executor_ ? executor_->epoch() : now();
     executor_.reset();
     executor_ = std::make_unique<Executor>(active_devices(), bodies, epoch);
+    planner_ = std::make_unique<FramePlanner>(*maker_, strip_count_, active_devices(),
+                                              options_.plan, fixed_division());
+}
+
+std::optional<Division> PlannedExecutor::fixed_division() const {
     const bool all = active_.size() == devices_.size();
-    planner_ =
-        std::make_unique<FramePlanner>(*maker_, strip_count_, active_devices(), options_.plan,
-                                       all ? options_.division : std::nullopt);
+    if (all && options_.division) return options_.division;
+    if (options_.plan != PlanKind::kAsync) return std::nullopt;
+    const auto devices = active_devices();
+    std::vector<double> units;
+    for (const Device* device : devices) {
+        const DeviceInfo& info = device->info();
+        if (info.team == devices.front()->info().team) units.push_back(info.units);
+    }
+    Division division = Division::proportional(strip_count_, units);
+    division.strips.resize(devices.size(), 0);
+    return division;
 }
 
 void PlannedExecutor::take_over(StepMaker& maker, int strip_count) {

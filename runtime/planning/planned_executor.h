@@ -78,6 +78,8 @@ public:
 private:
     std::vector<Device*> active_devices() const;
     void open();
+    /// The one that was asked for, or, for asynchronous plans, by units, of the first team.
+    std::optional<Division> fixed_division() const;
     void look_at_load(int frame);
     void note_limits(const FramePlan& plan, const RunTimes& times, double threads,
                      std::vector<std::string>& warnings) const;

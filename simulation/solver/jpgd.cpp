@@ -97,6 +97,10 @@ public:
 
     std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get(), &other_}; }
 
+    /// Positions and what becomes of them take turns in two buffers. Behind a check, which may take
+    /// back what was done, both have to be made anew before anybody may look at older ones.
+    Asynchrony asynchrony() const override { return {{kRefresh, kStep}, 0.5f, kCheckEvery, 2}; }
+
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
         Step step;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "simulation/solver/solver.h"
+#include "simulation/solver/iterates.h"
 
 namespace weft {
 
@@ -22,45 +22,19 @@ public:
     std::vector<BufferStorage*> state() override { return solver_->state(); }
     std::vector<RowTable*> tables() override { return solver_->tables(); }
     std::vector<Buffer<float4>*> iterate() override { return solver_->iterate(); }
-    int iterate_count() const override { return iterates_; }
-    std::vector<const Buffer<float4>*> other_iterates() const override;
+    int iterate_count() const override { return iterates_.count(); }
+    std::vector<const Buffer<float4>*> other_iterates() const override {
+        return iterates_.others();
+    }
     Step make_step(const Partition& partition) override;
 
 private:
-    /// One buffer of the iterate, in all iterates.
-    struct Copies {
-        Buffer<float4>* own = nullptr;                       ///< iterate 0
-        std::vector<std::unique_ptr<Buffer<float4>>> other;  ///< [iterate - 1]
-        std::vector<TaskBody> exchange;                      ///< [from * iterates + to]
-
-        Buffer<float4>& in(int iterate) {
-            return iterate == 0 ? *own : *other[static_cast<std::size_t>(iterate - 1)];
-        }
-    };
-    /// A body of the solver, as it is in all iterates but 0.
-    struct Elsewhere {
-        const TaskBody* body = nullptr;
-        std::vector<std::unique_ptr<TaskBody>> in;  ///< [iterate - 1]
-    };
     class Placing;
 
-    void cut_pieces(const Model& model);
-    void add_copies(Buffer<float4>& own);
-    void add_bodies();
-    TaskBody body_in(const TaskBody& body, int iterate);
-    Copies* copies_of(const BufferStorage* buffer);
-    const TaskBody& body_for(const TaskBody& body, int iterate) const;
-
     std::unique_ptr<Solver> solver_;
-    int iterates_;
     int exchange_kind_;
-    /// What is copied at once: of each strip what its first seam touches, the middle, and what its
-    /// last seam touches. So devices that work on the two seams of a strip do not disturb each
-    /// other.
-    std::unique_ptr<Buffer<int>> piece_begin_;  ///< [pieces + 1]
-    Segments pieces_;
-    std::vector<std::unique_ptr<Copies>> copies_;  ///< as the solver's iterate()
-    std::vector<Elsewhere> elsewhere_;             ///< bodies that touch the iterate
+    Iterates iterates_;
+    std::vector<std::vector<TaskBody>> exchange_;  ///< [buffer][from * iterates + to]
 };
 
 }  // namespace weft

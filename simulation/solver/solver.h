@@ -24,6 +24,16 @@ public:
     virtual std::vector<Buffer<float4>*> iterate() { return {}; }
     /// Copies of them that parts work on instead.
     virtual std::vector<const Buffer<float4>*> other_iterates() const { return {}; }
+    /// What may be done asynchronously, by parts that do not wait for each other.
+    struct Asynchrony {
+        std::vector<int> kinds;  ///< of tasks; none: this solver has no asynchronous form
+        /// Of each of two motions that meet. A solver that remembers how far it has moved needs 1.
+        float weight = 0.5f;
+        /// Of so many iterations each, the first ones stay in step.
+        int round = 1;
+        int in_step = 0;
+    };
+    virtual Asynchrony asynchrony() const { return {}; }
 };
 
 /// The solver that the model's scene names.

@@ -52,6 +52,14 @@ std::vector<std::string> SweepSolver::kinds() const {
     return names;
 }
 
+/// Obstacles push x~ along, which seams read.
+std::vector<Buffer<float4>*> SweepSolver::iterate() {
+    if (!model_.obstacles) return {model_.positions.get()};
+    return {model_.positions.get(), &substep_.targets()};
+}
+
+Solver::Asynchrony SweepSolver::asynchrony() const { return {{kSeams, kStrips}}; }
+
 Step SweepSolver::make_step(const Partition& partition) {
     const auto regions = regions_of(partition);
     const int iterations = model_.scene.solver.iterations;

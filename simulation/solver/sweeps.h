@@ -23,7 +23,8 @@ public:
     std::vector<const TaskBody*> bodies() const override;
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
-    std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
+    std::vector<Buffer<float4>*> iterate() override;
+    Asynchrony asynchrony() const override;
     Step make_step(const Partition& partition) override;
 
 protected:

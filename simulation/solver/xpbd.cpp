@@ -38,6 +38,10 @@ public:
 
     std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
 
+    /// The multipliers count every motion in full, so it must not be lost: where half of it is,
+    /// they and the positions do not belong together any more, and iterations end elsewhere.
+    Asynchrony asynchrony() const override { return {{kSeams, kStrips}, 1.0f}; }
+
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
         Step step;

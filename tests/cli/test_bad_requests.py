@@ -167,7 +167,11 @@ COMMAND_LINES = {
     "device_zero_cores": (["--device", "cpu/0"], ["cpu/0", "at least 1"]),
     "too_many_cores": (["--device", "cpu/10000"], ["10000 cores"]),
     "unknown_plan": (["--plan", "exakt"], ["did you mean 'exact'?"]),
-    "plan_of_later": (["--plan", "async"], ["--plan async", "not in this version"]),
+    "async_of_newton": (
+        ["--plan", "async", "--solver", "newton"],
+        ["--plan async", "no asynchronous form"],
+    ),
+    "async_setting": (["--plan", "async", "--async", "widnow=3"], ["--async widnow", "window"]),
     "unknown_solver": (["--solver", "xpdb"], ["--solver xpdb", "did you mean 'xpbd'?"]),
     "unknown_math": (["--math", "quick"], ["--math", "'quick'"]),
     "unknown_option": (["--framez", "3"], ["--framez", "did you mean"]),

@@ -1,0 +1,328 @@
+#include "simulation/solver/async_iterates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "kernels/descent/substep.h"
+#include "kernels/exchange.h"
+#include "runtime/error.h"
+#include "scheduler/assert.h"
+
+namespace weft {
+
+namespace {
+
+/// For the maps of divisions with 2 to 8 parts; without dropping, start points are kept for long.
+int slots_for(const AsyncSettings& settings) {
+    constexpr int kMost = 32;
+    constexpr int kWithoutDropping = 12;
+    if (!settings.dropping) return kWithoutDropping;
+    return std::min(kMost, 2 + 5 * static_cast<int>(std::ceil(settings.wait_or_default())));
+}
+
+}  // namespace
+
+/// The parts of the iterate that a step's tasks tell apart: pieces side by side that the same
+/// accesses cover are one.
+class AsyncIterates::Cells {
+public:
+    struct Cell {
+        std::size_t buffer;
+        int first_piece;
+        int end_piece;
+    };
+
+    Cells(const Iterates& iterates, const Step& step, const Partition& partition)
+        : iterates_(iterates) {
+        for (std::size_t b = 0; b < iterates.buffer_count(); ++b) add_buffer(b, step, partition);
+    }
+
+    const std::vector<Cell>& cells() const { return cells_; }
+
+    /// Those that an access covers.
+    scheduler::CellRange of(std::size_t buffer, const Access& access) const {
+        const auto [first, end] = iterates_.pieces_with(access.begin, access.end);
+        const auto at = [&](int piece) {
+            const auto found = std::ranges::find_if(
+                cells_, [&](const Cell& c) { return c.buffer == buffer && c.end_piece > piece; });
+            return static_cast<int>(found - cells_.begin());
+        };
+        return {at(first), at(end - 1) + 1};
+    }
+
+private:
+    void add_buffer(std::size_t buffer, const Step& step, const Partition& partition) {
+        std::set<int> cuts{0, iterates_.pieces().strip_count};
+        for (const Part& part : partition.parts) {
+            cuts.insert(Iterates::kPiecesPerStrip * part.begin);
+        }
+        for (const Task& task : step.tasks()) {
+            for (const Access& access : task.accesses) {
+                if (iterates_.index_of(access.buffer) != buffer) continue;
+                WEFT_ASSERT(access.segments == nullptr);
+                const auto [first, end] = iterates_.pieces_with(access.begin, access.end);
+                cuts.insert(first);
+                cuts.insert(end);
+            }
+        }
+        for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut) {
+            cells_.push_back({buffer, *cut, *std::next(cut)});
+        }
+    }
+
+    const Iterates& iterates_;
+    std::vector<Cell> cells_;
+};
+
+AsyncIterates::AsyncIterates(const Model& model, std::unique_ptr<Solver> solver, int iterates,
+                             const AsyncSettings& settings)
+    : model_(model),
+      settings_(settings),
+      solver_(std::move(solver)),
+      copy_kind_(static_cast<int>(solver_->kinds().size())),
+      merge_kind_(copy_kind_ + 1),
+      iterates_(model, *solver_, iterates, slots_for(settings)) {
+    if (solver_->asynchrony().kinds.empty()) {
+        throw UserError(
+            "--plan async: the scene's solver has no asynchronous form; xpbd, vbd, sosd "
+            "and jpgd have one");
+    }
+    add_exchanges();
+}
+
+/// All that maps may ask for: an executor has to know them before there is a map.
+void AsyncIterates::add_exchanges() {
+    const int iterates = iterates_.count();
+    const int places = iterates_.place_count();
+    for (std::size_t b = 0; b < iterates_.buffer_count(); ++b) {
+        for (int from = 0; from < places; ++from) {
+            for (int to = 0; to < places; ++to) {
+                const bool is_between_slots = from >= iterates && to >= iterates;
+                if (from == to || (settings_.dropping && is_between_slots)) continue;
+                add_copy(b, from, to);
+                if (to >= iterates && settings_.dropping) continue;
+                for (int start = iterates; start < places; ++start) {
+                    if (start != from && start != to) add_merge(b, start, from, to);
+                }
+            }
+        }
+    }
+}
+
+void AsyncIterates::add_copy(std::size_t buffer, int from, int to) {
+    exchanges_[{buffer, kCopies, from, to}] = std::make_unique<TaskBody>(
+        TaskBody{"exchange",
+                 copy_kind_,
+                 {launch(kernels::copy_positions, iterates_.pieces(), iterates_.in(buffer, from),
+                         iterates_.in(buffer, to))}});
+}
+
+void AsyncIterates::add_merge(std::size_t buffer, int start, int from, int to) {
+    using Merge = AsyncSettings::Merge;
+    Buffer<float4>& own = iterates_.in(buffer, to);
+    Buffer<float4>& input = iterates_.in(buffer, from);
+    float weight = solver_->asynchrony().weight;
+    if (settings_.merge == Merge::kSum) weight = 1.0f;
+    if (settings_.merge == Merge::kMean) weight = 0.5f;
+    TaskBody body{"merge", merge_kind_, {}};
+    if (settings_.merge == Merge::kPosition)
+        body.launches = {launch(kernels::average_positions, iterates_.pieces(), own, input)};
+    else
+        body.launches = {launch(kernels::merge_displacements, iterates_.pieces(), own,
+                                iterates_.in(buffer, start), input, weight, weight)};
+    exchanges_[{buffer, start, from, to}] = std::make_unique<TaskBody>(std::move(body));
+}
+
+std::vector<const TaskBody*> AsyncIterates::bodies() const {
+    std::vector<const TaskBody*> list = solver_->bodies();
+    for (const TaskBody* body : iterates_.other_bodies()) list.push_back(body);
+    for (const auto& [places, body] : exchanges_) list.push_back(body.get());
+    return list;
+}
+
+std::vector<std::string> AsyncIterates::kinds() const {
+    std::vector<std::string> names = solver_->kinds();
+    names.emplace_back("exchange");
+    names.emplace_back("merge");
+    return names;
+}
+
+bool AsyncIterates::is_asynchronous(const Task& task) const {
+    const int settle = settings_.settle.value_or(model_.obstacles ? 1 : 0);
+    if (task.iteration >= model_.scene.solver.iterations - settle) return false;
+    const Asynchrony asynchrony = solver_->asynchrony();
+    if (task.iteration % asynchrony.round < asynchrony.in_step) return false;
+    return std::ranges::count(asynchrony.kinds, task.body->kind) > 0;
+}
+
+namespace {
+
+/// Tasks that follow each other for what is not of the iterate. [task]
+std::vector<std::vector<int>> order_by_other_data(const Step& step, const Iterates& iterates) {
+    Step other;
+    for (Task task : step.tasks()) {
+        std::erase_if(task.accesses, [&](const Access& access) {
+            return iterates.index_of(access.buffer) < iterates.buffer_count();
+        });
+        other.add(task);
+    }
+    other.seal();
+    std::vector<std::vector<int>> after(step.tasks().size());
+    for (const Dependency& d : other.dependencies()) {
+        after[static_cast<std::size_t>(d.to)].push_back(d.from);
+    }
+    return after;
+}
+
+/// A division is made so that all devices take equally long. So by plan an iteration takes each of
+/// them a time of 1, and its tasks share it by their items.
+std::vector<double> planned_durations(const Step& step, std::size_t parts, int iterations) {
+    std::vector<double> items(parts, 0.0);
+    for (const Task& task : step.tasks()) {
+        items[static_cast<std::size_t>(task.region)] += static_cast<double>(task.items);
+    }
+    std::vector<double> durations;
+    for (const Task& task : step.tasks()) {
+        const double all = items[static_cast<std::size_t>(task.region)];
+        durations.push_back(static_cast<double>(task.items) * iterations / all);
+    }
+    return durations;
+}
+
+}  // namespace
+
+scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Partition& partition,
+                                                     const Cells& cells) const {
+    scheduler::ExchangeProblem problem;
+    problem.devices = static_cast<int>(partition.parts.size());
+    problem.window = settings_.window;
+    problem.wait = settings_.wait_or_default();
+    problem.dropping = settings_.dropping;
+    problem.most_slots = iterates_.place_count() - iterates_.count();
+    for (const auto& cell : cells.cells()) {
+        const int strip = cell.first_piece / Iterates::kPiecesPerStrip;
+        const auto part =
+            std::ranges::find_if(partition.parts, [&](const Part& p) { return strip < p.end; });
+        problem.owners.push_back(static_cast<int>(part - partition.parts.begin()));
+    }
+    const auto after = order_by_other_data(step, iterates_);
+    for (std::size_t t = 0; t < step.tasks().size(); ++t) {
+        const Task& task = step.tasks()[t];
+        auto& planned = problem.tasks.emplace_back();
+        planned.iteration = task.iteration;
+        planned.device = task.region;
+        planned.synchronous = !is_asynchronous(task);
+        planned.after = after[t];
+        for (const Access& access : task.accesses) {
+            const std::size_t buffer = iterates_.index_of(access.buffer);
+            if (buffer == iterates_.buffer_count()) continue;
+            planned.reads.push_back(cells.of(buffer, access));
+            if (access.writes) planned.writes.push_back(planned.reads.back());
+        }
+    }
+    scheduler::plan_in_turn(
+        problem, planned_durations(step, partition.parts.size(), model_.scene.solver.iterations));
+    return problem;
+}
+
+scheduler::ExchangeProblem AsyncIterates::problem_of(const Partition& partition) {
+    const Step step = solver_->make_step(partition);
+    return problem_of(step, partition, Cells(iterates_, step, partition));
+}
+
+/// Puts a map's steps into a Step.
+class AsyncIterates::Building {
+public:
+    Building(const AsyncIterates& solver, const Step& base, const Cells& cells)
+        : solver_(solver), base_(base), cells_(cells) {}
+
+    Step build(const scheduler::ExchangeMap& map) {
+        for (const scheduler::ExchangeStep& step : map.steps) {
+            if (step.kind == scheduler::ExchangeStep::Kind::kTask)
+                add_task(base_.tasks()[static_cast<std::size_t>(step.task)]);
+            else
+                add_exchange(step);
+        }
+        step_.seal();
+        return std::move(step_);
+    }
+
+private:
+    void add_task(const Task& task) {
+        const Iterates& iterates = solver_.iterates_;
+        Task own = task;
+        own.body = &iterates.body_for(*task.body, task.region);
+        for (Access& access : own.accesses) {
+            const std::size_t buffer = iterates.index_of(access.buffer);
+            if (buffer < iterates.buffer_count()) access.buffer = &iterates.in(buffer, task.region);
+        }
+        step_.add(own);
+    }
+
+    /// One task for the cells of each buffer that lie side by side.
+    void add_exchange(const scheduler::ExchangeStep& step) {
+        const auto& cells = cells_.cells();
+        for (int c = step.cells.begin; c < step.cells.end;) {
+            const auto& first = cells[static_cast<std::size_t>(c)];
+            int end_piece = first.end_piece;
+            for (++c; c < step.cells.end; ++c) {
+                const auto& next = cells[static_cast<std::size_t>(c)];
+                if (next.buffer != first.buffer) break;
+                end_piece = next.end_piece;
+            }
+            add_exchange(step, first.buffer, first.first_piece, end_piece);
+        }
+    }
+
+    void add_exchange(const scheduler::ExchangeStep& step, std::size_t buffer, int begin, int end) {
+        const Iterates& iterates = solver_.iterates_;
+        const int first = iterates.pieces().item(begin);
+        const int last = iterates.pieces().item(end);
+        if (first == last) return;
+        const bool merges = step.kind == scheduler::ExchangeStep::Kind::kMerge;
+        const auto body =
+            solver_.exchanges_.find({buffer, merges ? step.start : kCopies, step.from, step.to});
+        WEFT_ASSERT(body != solver_.exchanges_.end());
+        auto task = step_.add(*body->second, iteration_of(step), begin, end, step.device);
+        task.reads(iterates.in(buffer, step.from), first, last)
+            .updates(iterates.in(buffer, step.to), first, last);
+        if (merges) task.reads(iterates.in(buffer, step.start), first, last);
+    }
+
+    int iteration_of(const scheduler::ExchangeStep& step) const {
+        const auto number = std::min(static_cast<std::size_t>(step.task), base_.tasks().size() - 1);
+        return base_.tasks()[number].iteration;
+    }
+
+    const AsyncIterates& solver_;
+    const Step& base_;
+    const Cells& cells_;
+    Step step_;
+};
+
+scheduler::ExchangeMap AsyncIterates::map_of(const scheduler::ExchangeProblem& problem) const {
+    try {
+        return scheduler::make_exchange_map(problem);
+    } catch (const scheduler::TooFewSlots&) {
+        throw UserError(
+            fmt::format("--async {}: so much would have to be kept for later that there "
+                        "is no room; a smaller wait or dropping=on may help",
+                        to_text(settings_)));
+    }
+}
+
+Step AsyncIterates::make_step(const Partition& partition) {
+    WEFT_ASSERT(static_cast<int>(partition.parts.size()) <= iterates_.count());
+    Step base = solver_->make_step(partition);
+    if (partition.parts.size() == 1) return base;
+    const Cells cells(iterates_, base, partition);
+    const auto problem = problem_of(base, partition, cells);
+    const auto map = map_of(problem);
+    WEFT_ASSERT(scheduler::find_fault(problem, map).empty());
+    return Building(*this, base, cells).build(map);
+}
+
+}  // namespace weft

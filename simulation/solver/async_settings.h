@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace weft {
+
+/// How asynchronous iterations exchange (docs/asynchronous-gauss-seidel.md). Together with the cuts
+/// they decide the result.
+struct AsyncSettings {
+    /// What becomes of a vertex that two devices have moved from where both had it.
+    enum class Merge {
+        kAuto,      ///< what the solver needs
+        kSum,       ///< both motions in full
+        kMean,      ///< half of each
+        kPosition,  ///< the mean of the positions, also where only one has moved
+    };
+    int window = 2;              ///< iterations that are open at a time; 1: synchronous
+    std::optional<double> wait;  ///< until another device is told [iterations]; null: window - 1
+    Merge merge = Merge::kAuto;
+    bool dropping = true;
+    /// So many of the last iterations are synchronous; null: 1 where there are obstacles.
+    std::optional<int> settle;
+
+    double wait_or_default() const { return wait.value_or(window - 1.0); }
+    friend bool operator==(const AsyncSettings&, const AsyncSettings&) = default;
+};
+
+/// As in "window=3,wait=0.5,merge=sum,dropping=off,settle=1"; what is not named has its default.
+/// Throws UserError.
+AsyncSettings parse_async_settings(const std::string& text);
+/// All of them, as they can be parsed.
+std::string to_text(const AsyncSettings& settings);
+
+}  // namespace weft

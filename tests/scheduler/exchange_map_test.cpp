@@ -1,0 +1,233 @@
+// The map of asynchronous iterations: what it must hold for all sorts of plans, and that the check
+// catches maps that do not.
+
+#include "scheduler/exchange_map.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+namespace weft::scheduler {
+namespace {
+
+using Kind = ExchangeStep::Kind;
+
+/// As strips: every device has a cell of its own and one at each cut; a task for its own cells, and
+/// one for the cut behind them, which writes into the next one's first cell.
+ExchangeProblem strips(int devices, int iterations) {
+    ExchangeProblem problem;
+    problem.devices = devices;
+    for (int d = 0; d < devices; ++d) problem.owners.insert(problem.owners.end(), 3, d);
+    const auto add = [&](int iteration, int device, CellRange cells, bool synchronous) {
+        ExchangeTask task;
+        task.iteration = iteration;
+        task.device = device;
+        task.synchronous = synchronous;
+        task.reads = task.writes = {cells};
+        problem.tasks.push_back(task);
+    };
+    for (int d = 0; d < devices; ++d) add(0, d, {3 * d, 3 * d + 3}, true);
+    for (int i = 0; i < iterations; ++i) {
+        for (int d = 0; d < devices; ++d) {
+            if (d + 1 < devices) add(i, d, {3 * d + 2, 3 * d + 4}, false);
+            add(i, d, {3 * d, 3 * d + 3}, false);
+        }
+    }
+    for (int d = 0; d < devices; ++d) add(iterations, d, {3 * d, 3 * d + 3}, true);
+    return problem;
+}
+
+/// As the paper's: every task writes everything, devices do kinds of tasks.
+ExchangeProblem families(int devices, int iterations) {
+    ExchangeProblem problem;
+    problem.devices = devices;
+    problem.owners = {0};
+    for (int i = 0; i < iterations; ++i) {
+        for (int d = 0; d < devices; ++d) {
+            ExchangeTask task;
+            task.iteration = i;
+            task.device = d;
+            task.reads = task.writes = {{0, 1}};
+            problem.tasks.push_back(task);
+        }
+    }
+    return problem;
+}
+
+void plan_at_random(ExchangeProblem& problem, int seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    std::uniform_real_distribution<double> duration(0.2, 3.0);
+    std::vector<double> durations;
+    for (std::size_t t = 0; t < problem.tasks.size(); ++t) durations.push_back(duration(random));
+    plan_in_turn(problem, durations);
+}
+
+TEST(ExchangeMap, HoldsWhateverThePlan) {
+    for (int seed = 0; seed < 40; ++seed) {
+        for (const int devices : {1, 2, 3, 5}) {
+            for (const int window : {1, 2, 3}) {
+                for (const bool dropping : {false, true}) {
+                    for (const bool by_strips : {false, true}) {
+                        auto problem = by_strips ? strips(devices, 6) : families(devices, 6);
+                        problem.window = window;
+                        problem.dropping = dropping;
+                        problem.wait = 0.1 * (seed % 7);
+                        problem.most_slots = 64;
+                        plan_at_random(problem, seed);
+                        EXPECT_EQ(find_fault(problem, make_exchange_map(problem)), "")
+                            << seed << ' ' << devices << ' ' << window << ' ' << dropping << ' '
+                            << by_strips;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(ExchangeMap, AWindowOfOneOnlyCopies) {
+    for (int seed = 0; seed < 10; ++seed) {
+        auto problem = strips(3, 5);
+        problem.window = 1;
+        plan_at_random(problem, seed);
+        for (const ExchangeStep& step : make_exchange_map(problem).steps) {
+            EXPECT_NE(step.kind, Kind::kMerge);
+        }
+    }
+}
+
+TEST(ExchangeMap, OneDeviceHasNothingToExchange) {
+    auto problem = strips(1, 4);
+    plan_at_random(problem, 1);
+    const ExchangeMap map = make_exchange_map(problem);
+    EXPECT_EQ(map.steps.size(), problem.tasks.size());
+    EXPECT_EQ(map.slots, 0);
+}
+
+/// An owner that is fed in time merges nothing: only who has moved a cell meanwhile does.
+TEST(ExchangeMap, OnlyCellsThatSeveralDevicesTouchAreExchanged) {
+    auto problem = strips(2, 6);
+    plan_at_random(problem, 3);
+    for (const ExchangeStep& step : make_exchange_map(problem).steps) {
+        if (step.kind == Kind::kTask) continue;
+        const ExchangeTask* task = step.task < static_cast<int>(problem.tasks.size())
+                                       ? &problem.tasks[static_cast<std::size_t>(step.task)]
+                                       : nullptr;
+        if (task == nullptr || task->synchronous) continue;
+        EXPECT_EQ(step.cells, (CellRange{3, 4}));
+    }
+}
+
+TEST(ExchangeMap, WithoutDroppingStartsAreMadeThatNoDeviceWasAt) {
+    auto problem = families(2, 8);
+    problem.dropping = false;
+    problem.wait = 0.4;
+    plan_in_turn(problem, std::vector<double>(problem.tasks.size(), 1.0));
+    EXPECT_GT(make_exchange_map(problem).virtual_starts, 0);
+    problem.dropping = true;
+    EXPECT_EQ(make_exchange_map(problem).virtual_starts, 0);
+}
+
+TEST(ExchangeMap, TooFewSlotsAreRefused) {
+    auto problem = families(3, 6);
+    problem.most_slots = 1;
+    plan_at_random(problem, 2);
+    EXPECT_THROW(make_exchange_map(problem), TooFewSlots);
+}
+
+TEST(ExchangeMap, ATaskThatStartsTooEarlyIsRefused) {
+    auto problem = strips(2, 4);
+    plan_at_random(problem, 2);
+    problem.tasks.back().start = 0.0;
+    EXPECT_THROW(make_exchange_map(problem), std::logic_error);
+}
+
+class Mutation : public testing::TestWithParam<bool> {
+protected:
+    Mutation() {
+        problem_ = GetParam() ? strips(3, 6) : families(3, 6);
+        problem_.dropping = false;
+        problem_.wait = 0.3;
+        problem_.most_slots = 64;
+        plan_at_random(problem_, 5);
+        map_ = make_exchange_map(problem_);
+    }
+    /// Changes one step of those that `which` chooses, each in turn.
+    template <class Which, class Change>
+    void expect_faults(Which which, Change change) {
+        int tried = 0;
+        for (std::size_t s = 0; s < map_.steps.size(); ++s) {
+            if (!which(map_.steps[s])) continue;
+            ++tried;
+            ExchangeMap wrong = map_;
+            change(wrong, s);
+            EXPECT_NE(find_fault(problem_, wrong), "") << "step " << s;
+        }
+        EXPECT_GT(tried, 0);
+    }
+
+    ExchangeProblem problem_;
+    ExchangeMap map_;
+};
+
+TEST_P(Mutation, AnInputDroppedIsFound) {
+    expect_faults([](const ExchangeStep& s) { return s.kind != Kind::kTask; },
+                  [](ExchangeMap& map, std::size_t s) {
+                      map.steps.erase(map.steps.begin() + static_cast<std::ptrdiff_t>(s));
+                  });
+}
+
+/// The start point of the merge before, which lies in another slot.
+TEST_P(Mutation, AStalePointIsFound) {
+    const auto slots = map_.slots;
+    expect_faults([](const ExchangeStep& s) { return s.kind == Kind::kMerge; },
+                  [&](ExchangeMap& map, std::size_t s) {
+                      auto& start = map.steps[s].start;
+                      start = start + 1 < problem_.devices + slots ? start + 1 : start - 1;
+                  });
+}
+
+/// A value that was kept is written over before its last reader came.
+TEST_P(Mutation, ASlotReusedEarlyIsFound) {
+    const auto& steps = map_.steps;
+    int tried = 0;
+    for (std::size_t read = 0; read < steps.size(); ++read) {
+        const ExchangeStep& reader = steps[read];
+        if (reader.kind == Kind::kTask || reader.from < problem_.devices) continue;
+        for (std::size_t w = 0; w < read; ++w) {
+            const ExchangeStep& writer = steps[w];
+            if (writer.kind != Kind::kCopy || writer.to < problem_.devices) continue;
+            if (writer.to == reader.from || writer.from_value == reader.from_value) continue;
+            if (writer.cells != reader.cells) continue;
+            // Not before the value itself was put there.
+            std::size_t put = read;
+            for (std::size_t p = w; p-- > 0;) {
+                if (steps[p].to == reader.from && steps[p].to_value == reader.from_value) put = p;
+            }
+            if (put >= w) continue;
+            ExchangeMap wrong = map_;
+            wrong.steps[w].to = reader.from;
+            EXPECT_NE(find_fault(problem_, wrong), "") << w << " before " << read;
+            ++tried;
+        }
+    }
+    EXPECT_GT(tried, 0);
+}
+
+TEST_P(Mutation, ATaskLeftOutOrDoneTwiceIsFound) {
+    expect_faults([](const ExchangeStep& s) { return s.kind == Kind::kTask; },
+                  [](ExchangeMap& map, std::size_t s) {
+                      map.steps.erase(map.steps.begin() + static_cast<std::ptrdiff_t>(s));
+                  });
+    expect_faults([](const ExchangeStep& s) { return s.kind == Kind::kTask; },
+                  [](ExchangeMap& map, std::size_t s) {
+                      const ExchangeStep again = map.steps[s];
+                      map.steps.insert(map.steps.begin() + static_cast<std::ptrdiff_t>(s), again);
+                  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Mutation, testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "Strips" : "Families"; });
+
+}  // namespace
+}  // namespace weft::scheduler

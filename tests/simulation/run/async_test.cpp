@@ -1,0 +1,294 @@
+// Asynchronous iterations: results that depend on the cuts and the settings, and on nothing else.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "runtime/error.h"
+#include "runtime/opencl/opencl_device.h"
+#include "runtime/tbb/cpu_device.h"
+#include "scheduler/exchange_map.h"
+#include "simulation/replay.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "simulation/solver/async_iterates.h"
+#include "tests/simulation/run/failing_device.h"
+#include "tests/simulation/run/test_scenes.h"
+
+namespace weft::test {
+namespace {
+
+constexpr int kFrames = 3;
+
+using Devices = std::vector<std::unique_ptr<Device>>;
+
+Devices cpus(int count) {
+    Devices devices;
+    for (int d = 0; d < count; ++d) devices.push_back(make_cpu_device(1, {}));
+    return devices;
+}
+
+struct TestCase {
+    Method method;
+    const std::string* scene;
+    int iterations = 5;
+};
+
+std::string name_of_case(const testing::TestParamInfo<TestCase>& info) {
+    std::string name(name_of(info.param.method));
+    name += info.param.scene == &kSolids ? "Solids" : "Everything";
+    return name + std::to_string(info.param.iterations);
+}
+
+class Async : public testing::TestWithParam<TestCase> {
+protected:
+    Async() : scene_(parse_scene(*GetParam().scene, "test.toml")) {
+        scene_.solver.method = GetParam().method;
+        scene_.solver.iterations = GetParam().iterations;
+        strips_ = Model(scene_, warnings_).strips.count();
+    }
+    std::unique_ptr<Simulation> simulation(Devices devices, const Division& division,
+                                           const std::string& settings) {
+        SimulationOptions options;
+        options.division = division;
+        options.plan = PlanKind::kAsync;
+        options.async = parse_async_settings(settings);
+        options.calibrate = false;
+        return std::make_unique<Simulation>(scene_, std::move(devices), options, warnings_);
+    }
+    static std::string hash_of(Simulation& run) {
+        for (int frame = 0; frame < kFrames; ++frame) run.advance();
+        return run.hash();
+    }
+    std::string synchronous_hash() {
+        SimulationOptions options;
+        options.division = Division{{strips_}};
+        options.calibrate = false;
+        Simulation run(scene_, cpus(1), options, warnings_);
+        return hash_of(run);
+    }
+    Division in_two() const { return {{strips_ / 2, strips_ - strips_ / 2}}; }
+    Division in_three() const { return {{1, strips_ - 2, 1}}; }
+
+    /// Task by task on one device, by the same map.
+    void expect_same_on_one_device(Simulation& run) {
+        const RunDescription description = run.describe();
+        SimulationOptions options;
+        options.devices = "cpu/1";
+        Replay twin(scene_, options, description, warnings_);
+        for (int frame = 0; frame < kFrames; ++frame) {
+            twin.advance(run.advance());
+            EXPECT_EQ(twin.simulation().hash(), run.hash()) << frame;
+        }
+    }
+
+    Scene scene_;
+    Warnings warnings_;
+    int strips_ = 0;
+};
+
+TEST_P(Async, AWindowOfOneIsTheSynchronousSolver) {
+    const std::string expected = synchronous_hash();
+    EXPECT_EQ(hash_of(*simulation(cpus(2), in_two(), "window=1")), expected);
+    EXPECT_EQ(hash_of(*simulation(cpus(3), in_three(), "window=1")), expected);
+}
+
+TEST_P(Async, TheSerialisedTwinHasTheSameBits) {
+    expect_same_on_one_device(*simulation(cpus(2), in_two(), ""));
+    expect_same_on_one_device(*simulation(cpus(3), in_three(), ""));
+}
+
+TEST_P(Async, TheTwinHasThemWithEverySetting) {
+    for (const char* settings : {"dropping=off", "window=3,merge=mean,settle=0", "wait=0,merge=sum",
+                                 "merge=position,dropping=off,settle=2"}) {
+        SCOPED_TRACE(settings);
+        expect_same_on_one_device(*simulation(cpus(2), in_two(), settings));
+    }
+}
+
+TEST_P(Async, RunsAgainAndAgainAreTheSame) {
+    const std::string first = hash_of(*simulation(cpus(2), in_two(), "settle=0"));
+    EXPECT_NE(first, synchronous_hash());
+    for (int again = 0; again < 3; ++again) {
+        EXPECT_EQ(hash_of(*simulation(cpus(2), in_two(), "settle=0")), first);
+    }
+}
+
+/// Asynchronous tasks read and write no iterate but their part's; what they wait for of others are
+/// tasks of the exchange.
+TEST_P(Async, TasksKeepToTheirOwn) {
+    Model model(scene_, warnings_);
+    AsyncIterates solver(model, make_solver(model), 2, {});
+    const Step step = solver.make_step(in_two().partition());
+    const auto kinds = static_cast<int>(make_solver(model)->kinds().size());
+    const auto is_exchange = [&](int task) {
+        return step.tasks()[static_cast<std::size_t>(task)].body->kind >= kinds;
+    };
+    std::set<int> asynchronous;
+    for (const int kind : make_solver(model)->asynchrony().kinds) asynchronous.insert(kind);
+    int waits = 0;
+    for (const Dependency& d : step.dependencies()) {
+        const Task& to = step.tasks()[static_cast<std::size_t>(d.to)];
+        const Task& from = step.tasks()[static_cast<std::size_t>(d.from)];
+        const int settled = scene_.solver.iterations - 1;
+        if (from.region == to.region || to.iteration >= settled) continue;
+        if (asynchronous.contains(to.body->kind) && asynchronous.contains(from.body->kind)) {
+            ADD_FAILURE() << from.body->name << " -> " << to.body->name;
+        }
+        waits += is_exchange(d.from) || is_exchange(d.to) ? 1 : 0;
+    }
+    EXPECT_GT(waits, 0);
+}
+
+TEST_P(Async, ItsMapsHold) {
+    Model model(scene_, warnings_);
+    for (const char* settings : {"", "dropping=off", "window=3,settle=0", "window=4,wait=0.2"}) {
+        AsyncIterates solver(model, make_solver(model), 3, parse_async_settings(settings));
+        for (const Division& division : {in_two(), in_three()}) {
+            const auto problem = solver.problem_of(division.partition());
+            const auto map = scheduler::make_exchange_map(problem);
+            EXPECT_EQ(scheduler::find_fault(problem, map), "") << settings;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Solvers, Async,
+    testing::Values(TestCase{Method::kXpbd, &kEverything}, TestCase{Method::kXpbd, &kSolids},
+                    TestCase{Method::kVbd, &kEverything}, TestCase{Method::kVbd, &kSolids},
+                    TestCase{Method::kSosd, &kEverything}, TestCase{Method::kSosd, &kSolids},
+                    TestCase{Method::kJpgd, &kEverything}, TestCase{Method::kJpgd, &kSolids, 10}),
+    name_of_case);
+
+/// Fewer cases: each builds its kernels.
+class AsyncBesideOpenCl : public Async {};
+
+TEST_P(AsyncBesideOpenCl, InMemoryOfItsOwn) {
+    if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    Devices devices = cpus(1);
+    DeviceOptions options;
+    options.memory = MemoryModel::kDiscrete;
+    for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
+    expect_same_on_one_device(*simulation(std::move(devices), in_two(), ""));
+}
+
+/// A core and two parts of an OpenCL device, more than there may be cores: twenty times the same.
+TEST_P(AsyncBesideOpenCl, ThreeDevicesAgainAndAgain) {
+    if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    if (opencl_devices()[0].units < 2) GTEST_SKIP() << "it cannot be divided";
+    Devices devices = cpus(1);
+    for (auto& device : open_opencl_device(0, {1, 1}, {})) devices.push_back(std::move(device));
+    const auto run = simulation(std::move(devices), in_three(), "");
+    const Checkpoint start = run->checkpoint();
+    const std::string first = hash_of(*run);
+    for (int again = 0; again < 20; ++again) {
+        run->resume(start);
+        EXPECT_EQ(hash_of(*run), first) << again;
+    }
+    EXPECT_EQ(hash_of(*simulation(cpus(3), in_three(), "")), first);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, AsyncBesideOpenCl,
+                         testing::Values(TestCase{Method::kXpbd, &kEverything},
+                                         TestCase{Method::kVbd, &kEverything},
+                                         TestCase{Method::kXpbd, &kSolids}),
+                         name_of_case);
+
+/// As it is planned by itself: by the devices' units, whatever was measured.
+TEST(AsyncRuns, TheCutsDoNotDependOnMeasuredTimes) {
+    const Scene scene = parse_scene(kEverything, "test.toml");
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    Simulation run(scene, cpus(2), options, warnings);
+    const int strips = run.model().strips.count();
+    for (int frame = 0; frame < kFrames; ++frame) {
+        const FrameRecord record = run.advance();
+        ASSERT_TRUE(record.graph);
+        const auto half = static_cast<std::uint32_t>(strips - strips / 2);
+        EXPECT_EQ(record.graph->strips[0], half);
+    }
+}
+
+TEST(AsyncRuns, ALostDeviceIsLeftOutAndTheRunCanBeReplayed) {
+    const Scene scene = parse_scene(kEverything, "test.toml");
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    options.calibrate = false;
+    Devices devices;
+    devices.push_back(make_cpu_device(1, {}));
+    devices.push_back(make_failing_device(make_cpu_device(1, {}), 2));
+    Simulation run(scene, std::move(devices), options, warnings);
+    const RunDescription description = run.describe();
+    SimulationOptions on_one;
+    on_one.devices = "cpu/1";
+    Replay replay(scene, on_one, description, warnings);
+    for (int frame = 0; frame < 4; ++frame) {
+        replay.advance(run.advance());
+        EXPECT_EQ(replay.simulation().hash(), run.hash());
+    }
+    EXPECT_EQ(run.losses().size(), 1U);
+}
+
+TEST(AsyncRuns, AResumedRunEndsAsOneThatWasNot) {
+    const Scene scene = parse_scene(kEverything, "test.toml");
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    options.calibrate = false;
+    Simulation run(scene, cpus(2), options, warnings);
+    run.advance();
+    const Checkpoint checkpoint = run.checkpoint();
+    run.advance();
+    Simulation resumed(scene, cpus(2), options, warnings);
+    resumed.resume(checkpoint);
+    resumed.advance();
+    EXPECT_EQ(resumed.hash(), run.hash());
+}
+
+TEST(AsyncRuns, ABadStateIsDiagnosed) {
+    Scene scene = parse_scene(kSpringsOnly, "test.toml");
+    scene.guard.max_speed = 0.3;
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    options.calibrate = false;
+    Simulation run(scene, cpus(2), options, warnings);
+    try {
+        for (int frame = 0; frame < 10; ++frame) run.advance();
+        FAIL() << "nothing was too fast";
+    } catch (const RunError& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("guard.max_speed"), std::string::npos) << message;
+        EXPECT_NE(message.find("substep"), std::string::npos) << message;
+    }
+}
+
+TEST(AsyncRuns, NewtonHasNoAsynchronousForm) {
+    Scene scene = parse_scene(kSpringsOnly, "test.toml");
+    scene.solver.method = Method::kNewton;
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    EXPECT_THROW(Simulation(scene, cpus(2), options, warnings), UserError);
+}
+
+TEST(AsyncSettingsText, IsReadAsItIsWritten) {
+    for (const char* text : {"", "window=3", "wait=0.25,merge=mean", "dropping=off,settle=2"}) {
+        const AsyncSettings settings = parse_async_settings(text);
+        EXPECT_EQ(parse_async_settings(to_text(settings)), settings) << text;
+    }
+    EXPECT_EQ(parse_async_settings("window=5").window, 5);
+    EXPECT_FALSE(parse_async_settings("dropping=off").dropping);
+}
+
+TEST(AsyncSettingsText, WhatIsWrongIsRefused) {
+    for (const char* text : {"window=0", "window=two", "window", "wait=-1", "wait=nan",
+                             "merge=best", "dropping=maybe", "settle=-1", "widnow=2", "=", ","}) {
+        EXPECT_THROW(parse_async_settings(text), UserError) << text;
+    }
+}
+
+}  // namespace
+}  // namespace weft::test
