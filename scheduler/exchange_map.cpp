@@ -167,8 +167,20 @@ private:
         if (contains_all_of(device, input)) return;
         const bool drops = problem_.dropping && !synchronous_ && from == owner_;
         if (drops || history(current(device)).within(history(input))) return take(device, input);
-        const Id start = find(both(history(current(device)), history(input)), device);
-        merge(device, input, start);
+        merge(device, input, start_for(device, from, input));
+    }
+
+    /// What both contain; mostly there was a time when the input's device was just there. Where it
+    /// was not, having had two exchanges crosswise, its tasks are taken one by one: before each of
+    /// them it was.
+    Id start_for(int device, int from, Id input) {
+        Id start = existing(both(history(current(device)), history(input)));
+        if (start != kNone) return start;
+        const std::vector<Id> made = made_by_[static_cast<std::size_t>(from)];
+        for (const Id id : made) {
+            if (id < input && !contains_all_of(device, id)) bring(device, from, id);
+        }
+        return find(both(history(current(device)), history(input)), device);
     }
 
     void take(int device, Id input) {
@@ -205,11 +217,16 @@ private:
         used.last_time = start_;
     }
 
-    /// The value that contains just these tasks; made where there never was one.
-    Id find(const History& wanted, int device) {
+    Id existing(const History& wanted) {
         for (Id id = static_cast<Id>(values_.size()) - 1; id >= 0; --id) {
             if (history(id) == wanted) return id;
         }
+        return kNone;
+    }
+
+    /// The value that contains just these tasks; made where there never was one.
+    Id find(const History& wanted, int device) {
+        if (const Id id = existing(wanted); id != kNone) return id;
         Id have = largest_within(wanted, {});
         while (!(history(have) == wanted)) {
             const Id more = largest_within(wanted, history(have));

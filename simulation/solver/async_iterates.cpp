@@ -15,12 +15,12 @@ namespace weft {
 
 namespace {
 
-/// For the maps of divisions with 2 to 8 parts; without dropping, start points are kept for long.
+/// What maps of divisions need, and some more, so that no device waits for a slot: the longer
+/// values are on their way, the more of them there are.
 int slots_for(const AsyncSettings& settings) {
-    constexpr int kMost = 32;
-    constexpr int kWithoutDropping = 12;
-    if (!settings.dropping) return kWithoutDropping;
-    return std::min(kMost, 2 + 5 * static_cast<int>(std::ceil(settings.wait_or_default())));
+    constexpr int kMost = 40;
+    const int iterations = static_cast<int>(std::ceil(settings.wait_or_default()));
+    return std::min(kMost, 4 + (settings.dropping ? 5 : 8) * iterations);
 }
 
 }  // namespace
@@ -101,11 +101,10 @@ void AsyncIterates::add_exchanges() {
         for (int from = 0; from < places; ++from) {
             for (int to = 0; to < places; ++to) {
                 const bool is_between_slots = from >= iterates && to >= iterates;
-                if (from == to || (settings_.dropping && is_between_slots)) continue;
+                if (from == to || is_between_slots) continue;
                 add_copy(b, from, to);
-                if (to >= iterates && settings_.dropping) continue;
-                for (int start = iterates; start < places; ++start) {
-                    if (start != from && start != to) add_merge(b, start, from, to);
+                for (int start = iterates; to < iterates && start < places; ++start) {
+                    if (start != from) add_merge(b, start, from, to);
                 }
             }
         }
@@ -303,9 +302,13 @@ private:
     Step step_;
 };
 
+/// Start points that no device was ever at are needed where three share a cell, and no more than
+/// two strips meet anywhere.
 scheduler::ExchangeMap AsyncIterates::map_of(const scheduler::ExchangeProblem& problem) const {
     try {
-        return scheduler::make_exchange_map(problem);
+        auto map = scheduler::make_exchange_map(problem);
+        WEFT_ASSERT(map.virtual_starts == 0);
+        return map;
     } catch (const scheduler::TooFewSlots&) {
         throw UserError(
             fmt::format("--async {}: so much would have to be kept for later that there "

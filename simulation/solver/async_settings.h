@@ -18,7 +18,7 @@ struct AsyncSettings {
     int window = 2;              ///< iterations that are open at a time; 1: synchronous
     std::optional<double> wait;  ///< until another device is told [iterations]; null: window - 1
     Merge merge = Merge::kAuto;
-    bool dropping = true;
+    bool dropping = false;  ///< scheduler/exchange_map.h
     /// So many of the last iterations are synchronous; null: 1 where there are obstacles.
     std::optional<int> settle;
 
@@ -26,7 +26,7 @@ struct AsyncSettings {
     friend bool operator==(const AsyncSettings&, const AsyncSettings&) = default;
 };
 
-/// As in "window=3,wait=0.5,merge=sum,dropping=off,settle=1"; what is not named has its default.
+/// As in "window=3,wait=0.5,merge=sum,dropping=on,settle=1"; what is not named has its default.
 /// Throws UserError.
 AsyncSettings parse_async_settings(const std::string& text);
 /// All of them, as they can be parsed.

@@ -118,14 +118,21 @@ TEST(ExchangeMap, OnlyCellsThatSeveralDevicesTouchAreExchanged) {
     }
 }
 
-TEST(ExchangeMap, WithoutDroppingStartsAreMadeThatNoDeviceWasAt) {
-    auto problem = families(2, 8);
-    problem.dropping = false;
-    problem.wait = 0.4;
-    plan_in_turn(problem, std::vector<double>(problem.tasks.size(), 1.0));
-    EXPECT_GT(make_exchange_map(problem).virtual_starts, 0);
-    problem.dropping = true;
-    EXPECT_EQ(make_exchange_map(problem).virtual_starts, 0);
+/// However long they wait for each other, two devices were once where each merge starts.
+TEST(ExchangeMap, TwoDevicesNeedNoStartsThatTheyWereNeverAt) {
+    for (const bool by_strips : {false, true}) {
+        for (const int window : {2, 3, 4}) {
+            auto problem = by_strips ? strips(2, 32) : families(2, 32);
+            problem.dropping = false;
+            problem.window = window;
+            problem.wait = 1.3 * (window - 1);
+            problem.most_slots = 8 * window;
+            plan_in_turn(problem, std::vector<double>(problem.tasks.size(), 0.6));
+            const ExchangeMap map = make_exchange_map(problem);
+            EXPECT_EQ(map.virtual_starts, 0);
+            EXPECT_EQ(find_fault(problem, map), "");
+        }
+    }
 }
 
 TEST(ExchangeMap, TooFewSlotsAreRefused) {

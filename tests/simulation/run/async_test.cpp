@@ -99,8 +99,8 @@ TEST_P(Async, TheSerialisedTwinHasTheSameBits) {
 }
 
 TEST_P(Async, TheTwinHasThemWithEverySetting) {
-    for (const char* settings : {"dropping=off", "window=3,merge=mean,settle=0", "wait=0,merge=sum",
-                                 "merge=position,dropping=off,settle=2"}) {
+    for (const char* settings : {"dropping=on", "window=3,merge=mean,settle=0", "wait=0,merge=sum",
+                                 "merge=position,dropping=on,settle=2"}) {
         SCOPED_TRACE(settings);
         expect_same_on_one_device(*simulation(cpus(2), in_two(), settings));
     }
@@ -142,7 +142,8 @@ TEST_P(Async, TasksKeepToTheirOwn) {
 
 TEST_P(Async, ItsMapsHold) {
     Model model(scene_, warnings_);
-    for (const char* settings : {"", "dropping=off", "window=3,settle=0", "window=4,wait=0.2"}) {
+    for (const char* settings :
+         {"", "dropping=on", "window=3,settle=0", "window=4,settle=0", "window=4,wait=0.2"}) {
         AsyncIterates solver(model, make_solver(model), 3, parse_async_settings(settings));
         for (const Division& division : {in_two(), in_three()}) {
             const auto problem = solver.problem_of(division.partition());
@@ -275,12 +276,12 @@ TEST(AsyncRuns, NewtonHasNoAsynchronousForm) {
 }
 
 TEST(AsyncSettingsText, IsReadAsItIsWritten) {
-    for (const char* text : {"", "window=3", "wait=0.25,merge=mean", "dropping=off,settle=2"}) {
+    for (const char* text : {"", "window=3", "wait=0.25,merge=mean", "dropping=on,settle=2"}) {
         const AsyncSettings settings = parse_async_settings(text);
         EXPECT_EQ(parse_async_settings(to_text(settings)), settings) << text;
     }
     EXPECT_EQ(parse_async_settings("window=5").window, 5);
-    EXPECT_FALSE(parse_async_settings("dropping=off").dropping);
+    EXPECT_TRUE(parse_async_settings("dropping=on").dropping);
 }
 
 TEST(AsyncSettingsText, WhatIsWrongIsRefused) {
