@@ -199,6 +199,14 @@ std::size_t Executor::find_submitter(const scheduler::Plan& plan) const {
     return devices_.size() - 1;
 }
 
+void RunTimes::append(RunTimes next) {
+    end = next.end;
+    for (std::size_t d = 0; d < tasks.size(); ++d) {
+        tasks[d].insert(tasks[d].end(), next.tasks[d].begin(), next.tasks[d].end());
+    }
+    copies.insert(copies.end(), next.copies.begin(), next.copies.end());
+}
+
 RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instances,
                        int first_instance) {
     for (const auto& stream : streams_) stream->begin(epoch_);

@@ -29,6 +29,9 @@ struct RunTimes {
     double end = 0.0;
     std::vector<std::vector<TaskTime>> tasks;  ///< [device]
     std::vector<CopyRecord> copies;
+
+    /// What ran next.
+    void append(RunTimes next);
 };
 
 /// A device by its number in an executor. The run counts all that there ever were.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "runtime/tbb/parallel.h"
@@ -24,10 +25,11 @@ enum class Led : std::uint8_t { kNot, kByPin, kByObstacle };
 /// The vertices that something leads, and where.
 class Leads {
 public:
+    /// with_pins: by those that move, too
     Leads(const Model& model, std::span<const float4> before, std::span<const float4> now,
-          double start, double end)
+          double start, double end, bool with_pins)
         : model_(model), before_(before), now_(now) {
-        if (model.moving_pins) lead_by_pins();
+        if (model.moving_pins && with_pins) lead_by_pins();
         for (const Obstacle& obstacle : model.scene.obstacles) {
             const Frame from = obstacle.frame_at(start);
             const Frame to = obstacle.frame_at(end);
@@ -167,6 +169,37 @@ double doubt_of_blows(const Model& model, const SimulationState& before, double 
     return speed * length(gained - fallen);
 }
 
+/// Whether nothing is held but by pins that move.
+bool all_held_move(const Model& model) {
+    std::size_t held = 0;
+    for (const float4& x : model.positions->span()) held += x.w <= 0.0f ? 1 : 0;
+    return held == model.moving_pins->count();
+}
+
+/// By pins that all have one velocity: that times their push, which is what the momentum of
+/// everything else has more of than gravity and damping account for. Nothing else may push.
+std::optional<OutsideWork> work_of_common_pins(const Model& model, const SimulationState& before,
+                                               double start, double end) {
+    if (!model.moving_pins || model.obstacles || !all_held_move(model)) return std::nullopt;
+    const int substeps = static_cast<int>(std::lround((end - start) / model.h));
+    const auto velocity = model.moving_pins->common_velocity(start, model.h, substeps);
+    if (!velocity) return std::nullopt;
+    Vec3 fall;  // [m/s]
+    for (int s = 0; s < substeps; ++s) fall = fall + model.h * to_vec3((*model.gravity)[at(s)]);
+    Vec3 push, unknown;
+    for (std::size_t v = 0; v < model.masses.size(); ++v) {
+        if ((*model.positions)[v].w <= 0.0f) continue;
+        const Vec3 first = to_vec3(before.velocities[v]);
+        const float4& last = (*model.velocities)[v];
+        const Vec3 gained = to_vec3(last) - first;
+        // What damping leaves of a velocity per substep, and what velocities it had between.
+        const double damped = substeps * (1.0 / static_cast<double>(last.w) - 1.0);
+        push = push + model.masses[v] * (gained - fall + 0.5 * damped * (first + to_vec3(last)));
+        unknown = unknown + (model.masses[v] * damped) * gained;
+    }
+    return OutsideWork{dot(*velocity, push), length(*velocity) * length(unknown)};
+}
+
 }  // namespace
 
 OutsideWork outside_work(const Model& model, const SimulationState& before, double start,
@@ -175,7 +208,12 @@ OutsideWork outside_work(const Model& model, const SimulationState& before, doub
     const Vec3 gravity = model.scene.gravity_at(end);
     OutsideWork sum =
         work_of_gravity(model, before.positions, now, gravity - model.scene.gravity_at(start));
-    const Leads leads(model, before.positions, now, start, end);
+    const auto exact = work_of_common_pins(model, before, start, end);
+    if (exact) {
+        sum.work += exact->work;
+        sum.doubt += exact->doubt;
+    }
+    const Leads leads(model, before.positions, now, start, end, !exact);
     const double led = leads.is_any() ? leads.work(gravity) : 0.0;
     sum.work += led;
     // Forces at a frame's ends say little of those within it, where stiff elements swing in every

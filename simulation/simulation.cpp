@@ -9,6 +9,7 @@
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/diagnosis.h"
+#include "simulation/error_samples.h"
 #include "simulation/run_description.h"
 #include "simulation/solver/async_iterates.h"
 #include "simulation/solver/own_iterates.h"
@@ -66,6 +67,9 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
                                      host_threads(devices))),
       first_substeps_(model_->scene.substeps) {
+    if (options.on_trouble != OnTrouble::kIgnore) {
+        samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
+    }
     warn_of_start(*model_, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
@@ -123,6 +127,7 @@ void Simulation::set_substeps(int substeps) {
     model_.swap(model);
     solver_.swap(solver);
     run_->take_over(*solver_, model_->strips.count());  // while those before are there
+    if (samples_) samples_->reset();
     place();
     restore(state);
 }
@@ -203,7 +208,7 @@ void Simulation::go_on_without(const DeviceLost& lost) {
 RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
     bool is_swept_anew = false;
     while (true) {
-        RunTimes times = run_->executor().run(step, plan, model_->scene.substeps);
+        RunTimes times = run_substeps(step, plan);
         fetch();
         const bool was_cut_short = run_->make_room();
         if (!was_cut_short && (is_swept_anew || !model_->outran_obstacles())) return times;
@@ -211,6 +216,24 @@ RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
         restore(*start_);
         hand_over_placed();
     }
+}
+
+/// Where the last substep is wanted, its start is looked at.
+RunTimes Simulation::run_substeps(const Step& step, const scheduler::Plan& plan) {
+    const int substeps = model_->scene.substeps;
+    Executor& executor = run_->executor();
+    if (!samples_ || !samples_->wants(*model_, frame_)) return executor.run(step, plan, substeps);
+    RunTimes times;
+    if (substeps > 1) {
+        times = executor.run(step, plan, substeps - 1);
+        executor.fetch(*model_->positions);
+        executor.fetch(*model_->velocities);
+    }
+    samples_->begin(*model_, time() + (substeps - 1) * model_->h);
+    RunTimes last = executor.run(step, plan, 1, substeps - 1);
+    if (substeps == 1) return last;
+    times.append(std::move(last));
+    return times;
 }
 
 /// False: it has to be done again.
@@ -251,6 +274,10 @@ bool Simulation::accepts(const Step& step, FrameRecord& frame) {
     watch_->accept(look, look.alarm.has_value());
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
+    frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
+    if (const auto error = samples_ ? samples_->end(*model_) : std::nullopt) {
+        frame.relative_error = *error;
+    }
     return true;
 }
 

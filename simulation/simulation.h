@@ -18,6 +18,7 @@
 
 namespace weft {
 
+class ErrorSamples;
 class Watch;
 struct Alarm;
 
@@ -131,6 +132,7 @@ private:
     void fetch();
     bool advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
+    RunTimes run_substeps(const Step& step, const scheduler::Plan& plan);
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
@@ -144,6 +146,7 @@ private:
     std::shared_ptr<Model> model_;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Watch> watch_;
+    std::unique_ptr<ErrorSamples> samples_;  ///< null: nothing is estimated
     std::unique_ptr<PlannedExecutor> run_;
     int first_substeps_ = 0;  ///< that the run began with
     mutable Snapshots snapshots_;

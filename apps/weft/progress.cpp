@@ -31,24 +31,24 @@ std::string Progress::time_left(int done, Clock::time_point now) const {
     return duration_text(elapsed.count() / done * (total_ - done)) + " left";
 }
 
-void Progress::show(int done) {
+void Progress::show(int done, const std::string& note) {
     const Clock::time_point now = Clock::now();
     if (quiet_ || now - last_ < (terminal_ ? kBarInterval : kLineInterval)) return;
     last_ = now;
-    const std::string left = time_left(done, now);
+    const std::string text = time_left(done, now) + (note.empty() ? "" : ", ") + note;
     if (terminal_) {
-        draw_bar(done, left);
+        draw_bar(done, text);
         drawn_ = true;
     } else {
-        std::cerr << fmt::format("weft: {} {} of {}, {}", what_, done, total_, left) << std::endl;
+        std::cerr << fmt::format("weft: {} {} of {}, {}", what_, done, total_, text) << std::endl;
     }
 }
 
-void Progress::draw_bar(int done, const std::string& left) const {
+void Progress::draw_bar(int done, const std::string& text) const {
     const int filled = static_cast<int>(static_cast<long>(kBarWidth) * done / total_);
     std::cerr << kClearLine
               << fmt::format("{} {}/{} [{:=<{}}{: <{}}] {}", what_, done, total_, "", filled, "",
-                             kBarWidth - filled, left)
+                             kBarWidth - filled, text)
               << std::flush;
 }
 

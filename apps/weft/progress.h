@@ -14,13 +14,13 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// So many of `total` are done.
-    void show(int done);
+    /// So many of `total` are done. note: what else there is to say
+    void show(int done, const std::string& note = "");
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    void draw_bar(int done, const std::string& left) const;
+    void draw_bar(int done, const std::string& text) const;
     std::string time_left(int done, Clock::time_point now) const;
 
     std::string what_;

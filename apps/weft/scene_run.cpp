@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "apps/weft/progress.h"
@@ -173,7 +174,10 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
         say_losses();
         say_troubles();
         if (geometry_) append_geometry();
-        progress.show(frames_done());
+        if (std::isfinite(record.relative_error)) {
+            convergence_ = fmt::format("error of a step {:.1g}", record.relative_error);
+        }
+        progress.show(frames_done(), convergence_);
         if (trace_) trace_->settle();
         close(record);
         summary_->add(record);

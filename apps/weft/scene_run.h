@@ -52,6 +52,7 @@ private:
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<GeometryWriter> geometry_;
+    std::string convergence_;  ///< how far steps are solved, as last estimated
     std::size_t losses_said_ = 0;
     std::size_t troubles_said_ = 0;
     std::optional<EarlierRun> earlier_;  ///< that this run goes on from

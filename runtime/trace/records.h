@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -145,6 +146,9 @@ struct FrameRecord {
     std::vector<LinkRecord> links;          ///< likewise; empty with a single device
     std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
     std::uint32_t substeps = 0;             ///< that the frame was made of; 0: not known
+    std::uint32_t iterations = 0;           ///< that each of them was solved by; 0: not known
+    /// Of its last substep, (E - E*) / (E0 - E*), as estimated; NaN: not in this frame.
+    double relative_error = std::numeric_limits<double>::quiet_NaN();
     // Of the state at the frame's end.
     double strain_rms = 0.0;       ///< of all edges, |length / rest length - 1|
     double strain_max = 0.0;       ///< of the worst one

@@ -135,9 +135,11 @@ RowType frame_row_type(std::size_t device_count) {
              column("strain_max", &FrameColumns::strain_max),
              column("work", &FrameColumns::work, "J"),
              column("dissipated", &FrameColumns::dissipated, "J"),
+             column("relative_error_estimate", &FrameColumns::relative_error),
              column("transferred_bytes", &FrameColumns::transferred_bytes, "B"),
              column("graph", &FrameColumns::graph),
              column("substeps", &FrameColumns::substeps),
+             column("iterations", &FrameColumns::iterations),
 
              {"planner", planner.id(), offsetof(FrameColumns, planner)},
              {"state_hash", hash.id(), offsetof(FrameColumns, state_hash)}},

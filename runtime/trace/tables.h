@@ -46,9 +46,11 @@ struct FrameColumns {
     double strain_max = 0.0;
     double work = 0.0;
     double dissipated = 0.0;
+    double relative_error = 0.0;
     std::uint64_t transferred_bytes = 0;
     std::uint32_t graph = 0;
     std::uint32_t substeps = 0;         ///< 0: not known
+    std::uint32_t iterations = 0;       ///< 0: not known
     std::array<char, 16> planner{};     ///< filled up with zeros
     std::array<char, 32> state_hash{};  ///< all zero: not known
 };

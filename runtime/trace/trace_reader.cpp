@@ -276,6 +276,8 @@ private:
             frame.work = columns.work;
             frame.dissipated = columns.dissipated;
             frame.substeps = columns.substeps;
+            frame.iterations = columns.iterations;
+            frame.relative_error = columns.relative_error;
             frame.transferred_bytes = columns.transferred_bytes;
             frame.planner = text_of(columns.planner);
             frame.state_hash = text_of(columns.state_hash);

@@ -131,9 +131,11 @@ struct Tables {
                                 record.strain_max,
                                 record.work,
                                 record.dissipated,
+                                record.relative_error,
                                 record.transferred_bytes,
                                 record.graph ? record.graph->graph : trace::kNoGraph,
                                 record.substeps,
+                                record.iterations,
                                 {},
                                 {}};
         fill(row.planner, record.planner);

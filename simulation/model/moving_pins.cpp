@@ -56,6 +56,33 @@ double MovingPins::farthest_move(double time, double h) const {
     return most;
 }
 
+std::optional<Vec3> MovingPins::common_velocity(double time, double h, int substeps) const {
+    constexpr double kSame = 1e-6;  // of both, in single precision
+    const auto place = [&](const Group& group, int substep) {
+        return group.motion.displacement(time + substep * h);
+    };
+    const Vec3 first =
+        (1.0 / h) * (place(groups_.front(), 1).origin - place(groups_.front(), 0).origin);
+    for (const Group& group : groups_) {
+        const Frame start = place(group, 0);
+        for (int substep = 1; substep <= substeps; ++substep) {
+            const Frame now = place(group, substep);
+            const Vec3 expected = (substep * h) * first;
+            const bool is_same =
+                now.axes == start.axes &&
+                length(now.origin - start.origin - expected) <= kSame * length(expected);
+            if (!is_same) return std::nullopt;
+        }
+    }
+    return first;
+}
+
+std::size_t MovingPins::count() const {
+    std::size_t sum = 0;
+    for (const Group& group : groups_) sum += group.vertices.size();
+    return sum;
+}
+
 void MovingPins::place_at(double time, std::span<Vec3> positions) const {
     for (const Group& group : groups_) {
         const Frame map = group.motion.displacement(time);

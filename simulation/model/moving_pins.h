@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,11 @@ public:
     void place(double time, double h);
     /// The farthest that a pin goes in a substep of that frame [m].
     double farthest_move(double time, double h) const;
+    /// The velocity of all pins, if they all have the same in all `substeps` of h [s] from `time`
+    /// on [m/s].
+    std::optional<Vec3> common_velocity(double time, double h, int substeps) const;
+    /// How many vertices move.
+    std::size_t count() const;
     /// Writes where the pins are at `time` into their places of `positions` (new order).
     void place_at(double time, std::span<Vec3> positions) const;
     Buffer<float4>& motions() { return motions_; }

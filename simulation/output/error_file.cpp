@@ -37,6 +37,8 @@ void write_curve(hid_t parent, const std::string& name, const ErrorCurve& curve)
     write_column(group.id(), "energy", H5T_NATIVE_DOUBLE, curve, &ErrorPoint::energy);
     write_column(group.id(), "relative_error", H5T_NATIVE_DOUBLE, curve,
                  &ErrorPoint::relative_error);
+    write_column(group.id(), "relative_error_estimate", H5T_NATIVE_DOUBLE, curve,
+                 &ErrorPoint::estimate);
 }
 
 void write_study(const std::string& path, const ErrorStudy& study) {

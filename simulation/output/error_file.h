@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct ErrorPoint {
     double time = 0.0;  ///< [s] from the step's beginning
     double energy = 0.0;
     double relative_error = 0.0;  ///< (E - E*) / (E0 - E*)
+    /// Of it, as runs make it (step_error.h); NaN: none.
+    double estimate = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One solver on one device list by one kind of plan. Its points begin with iteration 0, the start.

@@ -85,6 +85,23 @@ std::string strain_text(const RunSummary& summary) {
                        summary.strain_frame, 100.0 * summary.strain_max);
 }
 
+std::string convergence_text(const RunSummary& summary) {
+    if (summary.estimates == 0) return "not estimated";
+    return fmt::format(
+        "estimated relative error of a step {:.2g} (median of {} frame{}), at worst {:.2g} in "
+        "frame {}",
+        summary.relative_error, summary.estimates, summary.estimates == 1 ? "" : "s",
+        summary.worst_relative_error, summary.worst_error_frame);
+}
+
+nlohmann::ordered_json convergence_json(const RunSummary& summary) {
+    if (summary.estimates == 0) return nullptr;
+    return {{"median", summary.relative_error},
+            {"worst", summary.worst_relative_error},
+            {"worst_frame", summary.worst_error_frame},
+            {"frames", summary.estimates}};
+}
+
 std::string energies_text(const RunSummary& summary) {
     std::string text;
     for (auto it = summary.energies.rbegin(); it != summary.energies.rend(); ++it) {
@@ -127,6 +144,20 @@ void SummaryBuilder::add(const FrameRecord& frame) {
     for (std::size_t i = 0; i < device_count_; ++i) summary_.devices[i].busy += frame.busy.at(i);
     set_energies(frame);
     add_strain(frame);
+    if (std::isfinite(frame.relative_error)) {
+        estimates_.push_back({frame.frame, frame.relative_error});
+    }
+}
+
+void SummaryBuilder::sum_up_estimates(RunSummary& summary) const {
+    summary.estimates = estimates_.size();
+    if (estimates_.empty()) return;
+    std::vector<double> errors;
+    for (const Estimate& e : estimates_) errors.push_back(e.relative_error);
+    summary.relative_error = median(errors);
+    const auto worst = std::ranges::max_element(estimates_, {}, &Estimate::relative_error);
+    summary.worst_relative_error = worst->relative_error;
+    summary.worst_error_frame = worst->frame;
 }
 
 void SummaryBuilder::add_strain(const FrameRecord& frame) {
@@ -176,6 +207,7 @@ RunSummary SummaryBuilder::summary() const {
         device.utilisation = ratio(device.busy, makespans);
         result.utilisation += device.utilisation * device.share;
     }
+    sum_up_estimates(result);
     return result;
 }
 
@@ -186,6 +218,8 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
     nlohmann::json frames = nlohmann::json::array();
     for (const Frame& f : frames_)
         frames.push_back({f.start, f.end, f.planned, f.measured, f.lower_bound, f.parts});
+    nlohmann::json estimates = nlohmann::json::array();
+    for (const Estimate& e : estimates_) estimates.push_back({e.frame, e.relative_error});
     return nlohmann::json::to_cbor({{"simulated_time", summary_.simulated_time},
                                     {"transferred_bytes", summary_.transferred_bytes},
                                     {"energies", summary_.energies},
@@ -194,6 +228,7 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
                                      {summary_.strain_rms, summary_.strain_frame,
                                       summary_.strain_max, summary_.strain_rms_at_end}},
                                     {"warnings", summary_.warnings},
+                                    {"estimates", std::move(estimates)},
                                     {"devices", std::move(devices)},
                                     {"frames", std::move(frames)}});
 }
@@ -212,6 +247,7 @@ void SummaryBuilder::restore(std::span<const std::uint8_t> saved) {
         strain.at(1).get_to(summary_.strain_frame);
         strain.at(2).get_to(summary_.strain_max);
         strain.at(3).get_to(summary_.strain_rms_at_end);
+        for (const auto& e : json.at("estimates")) estimates_.push_back({e.at(0), e.at(1)});
         for (const auto& d : json.at("devices"))
             restore_device({d.at(0), d.at(1), d.at(2), d.at(3)});
         for (const auto& f : json.at("frames")) {
@@ -276,6 +312,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["strain_frame"] = summary.strain_frame;
     json["strain_max"] = summary.strain_max;
     json["strain_rms_at_end"] = summary.strain_rms_at_end;
+    json["relative_error_estimate"] = convergence_json(summary);
     json["state_hash"] = summary.state_hash;
     json["files"] = files;
     json["command"] = summary.command;
@@ -310,6 +347,7 @@ std::string to_text(const RunSummary& summary) {
     line(text, "transfers", bytes_text(summary.transferred_bytes));
     line(text, "energy", energies_text(summary));
     line(text, "strain of edges", strain_text(summary));
+    line(text, "convergence", convergence_text(summary));
     line(text, "state hash", summary.state_hash.empty() ? "not known" : summary.state_hash);
     for (const auto& [what, path] : summary.files) line(text, what, path);
     return text;

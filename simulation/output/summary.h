@@ -49,6 +49,11 @@ struct RunSummary {
     std::size_t strain_frame = 0;       ///< that frame
     double strain_max = 0.0;            ///< of the worst edge of all frames
     double strain_rms_at_end = 0.0;     ///< of all, after the last frame
+    // How far steps were solved, of frames in which that was estimated.
+    std::size_t estimates = 0;          ///< such frames
+    double relative_error = 0.0;        ///< median
+    double worst_relative_error = 0.0;  ///< and in the worst frame,
+    std::size_t worst_error_frame = 0;  ///< which is this one
     std::vector<std::string> warnings;  ///< what to doubt in the results
     std::vector<std::string> losses;    ///< devices that failed in mid-run, and why
     bool finished = false;              ///< all frames of the scene are done
@@ -82,6 +87,11 @@ private:
         double planned, measured, lower_bound;  ///< makespans
         std::array<double, std::size(kFrameParts)> parts;
     };
+    struct Estimate {
+        std::size_t frame;
+        double relative_error;
+    };
+    void sum_up_estimates(RunSummary& summary) const;
     void restore_device(const RunSummary::Device& device);
     void set_energies(const FrameRecord& frame);
     void add_strain(const FrameRecord& frame);
@@ -90,6 +100,7 @@ private:
     std::vector<std::string> energy_names_;
     std::size_t device_count_;  ///< that take part now: the first rows
     std::vector<Frame> frames_;
+    std::vector<Estimate> estimates_;
 };
 
 nlohmann::ordered_json to_json(const RunSummary& summary);

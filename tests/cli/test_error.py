@@ -101,6 +101,23 @@ def test_curves_start_at_one_and_stay_above_the_minimum(folder):
         assert all(value == own[0] for value in own), "the same bits on every device and plan"
 
 
+def test_estimates_of_runs_are_near_the_errors(folder):
+    result = weft("error", "scene.toml", "--out", "out", "--devices", "cpu/1",
+                  "--max-iterations", "30", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    compared = 0
+    for curve in read_curves(folder / "out" / "error.csv").values():
+        assert curve[0]["relative_error_estimate"] == "", "the start is no run's"
+        for row in curve[1:]:
+            error, estimate = (float(row[name]) for name in ("relative_error",
+                                                             "relative_error_estimate"))
+            if error < 1e-3:
+                continue
+            assert error / 3 < estimate < 3 * error
+            compared += 1
+    assert compared > 30
+
+
 def test_file_holds_the_same_as_the_table(folder):
     study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers",
                       "xpbd", "--frame", "2", "--max-iterations", "20", cwd=folder)

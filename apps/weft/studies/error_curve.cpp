@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "apps/weft/studies/repeated_time.h"
 #include "runtime/error.h"
 #include "simulation/scene/solver_limits.h"
+#include "simulation/step_error.h"
 
 namespace weft {
 
@@ -20,7 +22,9 @@ namespace {
 std::string to_bytes(const MeasuredCurve& curve) {
     std::string bytes = curve.end + '\n' + std::to_string(curve.points.size()) + '\n';
     for (const ErrorPoint& p : curve.points) {
-        bytes += fmt::format("{} {} {}\n", p.iteration, p.time, p.energy);
+        // Streams read no NaN.
+        const double estimate = std::isnan(p.estimate) ? -1.0 : p.estimate;
+        bytes += fmt::format("{} {} {} {}\n", p.iteration, p.time, p.energy, estimate);
     }
     return bytes + std::string(reinterpret_cast<const char*>(curve.positions.data()),
                                curve.positions.size() * sizeof(float));
@@ -33,7 +37,10 @@ MeasuredCurve to_curve(const std::string& bytes) {
     std::getline(in, curve.end);
     in >> count;
     curve.points.resize(count);
-    for (ErrorPoint& p : curve.points) in >> p.iteration >> p.time >> p.energy;
+    for (ErrorPoint& p : curve.points) {
+        in >> p.iteration >> p.time >> p.energy >> p.estimate;
+        if (p.estimate < 0.0) p.estimate = ErrorPoint{}.estimate;
+    }
     in.get();
     const auto at = static_cast<std::size_t>(in.tellg());
     curve.positions.resize((bytes.size() - at) / sizeof(float));
@@ -122,8 +129,16 @@ private:
         const double energy = problem_.potential->energy(problem_.from_scene_order(positions));
         // More iterations never take less: what is left of the noise is no news.
         const double before = measured_.points.empty() ? 0.0 : measured_.points.back().time;
-        measured_.add({iterations, std::max(before, time.median()), energy, 0.0},
+        const double estimate = estimate_of(positions);
+        measured_.add({iterations, std::max(before, time.median()), energy, 0.0, estimate},
                       std::move(positions));
+    }
+
+    double estimate_of(const std::vector<float>& positions) {
+        const State& start = problem_.start;
+        const double time = problem_.first_substep * problem_.model.h;
+        return estimate_.of({start.positions, start.velocities, positions, time, {}})
+            .value_or(std::numeric_limits<double>::quiet_NaN());
     }
 
     const ErrorOptions& options_;
@@ -131,6 +146,7 @@ private:
     const ErrorProblem& problem_;
     const double limit_ = options_.time.value_or(10.0);
     double spent_ = 0.0;  ///< [s]
+    StepError estimate_{problem_.model.scene, 1};
     MeasuredCurve measured_;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
 
 namespace weft {
 
@@ -20,11 +21,14 @@ std::string goal_text(const ErrorCurve& curve, double goal) {
 }  // namespace
 
 std::string to_csv(const ErrorStudy& study) {
-    std::string csv = "solver,device,plan,iteration,time_s,energy,relative_error\n";
+    std::string csv = "solver,device,plan,iteration,time_s,energy,relative_error,relative_error_estimate\n";
     for (const ErrorCurve& curve : study.curves) {
         for (const ErrorPoint& point : curve.points) {
-            csv += fmt::format("{},{},{},{},{},{},{}\n", curve.solver, curve.devices, curve.plan,
-                               point.iteration, point.time, point.energy, point.relative_error);
+            const std::string estimate =
+                std::isnan(point.estimate) ? "" : fmt::format("{}", point.estimate);
+            csv += fmt::format("{},{},{},{},{},{},{},{}\n", curve.solver, curve.devices, curve.plan,
+                               point.iteration, point.time, point.energy, point.relative_error,
+                               estimate);
         }
     }
     return csv;

@@ -1,6 +1,7 @@
 #include "apps/weft/studies/study_parts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/weft/studies/trajectory_study.h"
 #include "runtime/error.h"
@@ -28,7 +29,8 @@ void check_same(const std::vector<Json>& parts, const std::vector<const char*>& 
 Json curve_json(const ErrorCurve& curve) {
     Json points = Json::array();
     for (const ErrorPoint& p : curve.points) {
-        points.push_back({p.iteration, p.time, p.energy, p.relative_error});
+        const Json estimate = std::isnan(p.estimate) ? Json() : Json(p.estimate);
+        points.push_back({p.iteration, p.time, p.energy, p.relative_error, estimate});
     }
     return {{"solver", curve.solver},
             {"devices", curve.devices},
@@ -39,7 +41,10 @@ Json curve_json(const ErrorCurve& curve) {
 
 ErrorCurve error_curve(const Json& json) {
     ErrorCurve curve{json.at("solver"), json.at("devices"), json.at("plan"), {}, json.at("end")};
-    for (const Json& p : json.at("points")) curve.points.push_back({p[0], p[1], p[2], p[3]});
+    for (const Json& p : json.at("points")) {
+        curve.points.push_back({p[0], p[1], p[2], p[3]});
+        if (p[4].is_number()) curve.points.back().estimate = p[4];
+    }
     return curve;
 }
 

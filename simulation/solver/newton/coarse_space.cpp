@@ -115,6 +115,17 @@ void CoarseSpace::fill_members(const Model& model) {
     }
 }
 
+void CoarseSpace::hold(std::span<const float4> positions) {
+    for (int a = 0; a < aggregates_.count(); ++a) {
+        const auto& members = aggregates_.members[at(a)];
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const bool is_free = positions[at(members[k])].w > 0.0f;
+            aggregate_of_[at(members[k])] = is_free ? a : aggregates_.count();
+            (*shares_)[rows_->entry(a, static_cast<int>(k))] = is_free ? 1.0f : 0.0f;
+        }
+    }
+}
+
 void CoarseSpace::fill_places(const Model& model) {
     const int per_strip = aggregates_.per_strip;
     for (int s = 0; s < model.strips.count(); ++s) {

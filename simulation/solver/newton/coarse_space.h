@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "runtime/step.h"
@@ -14,6 +15,9 @@ namespace weft {
 class CoarseSpace {
 public:
     CoarseSpace(Model& model, Aggregates aggregates);
+
+    /// Vertices of no inverse mass take no part from now on, besides those that the model holds.
+    void hold(std::span<const float4> positions);
 
     /// To make it anew: the blocks of each strip's aggregates,
     std::vector<Launch> couple(const LinearisedAt& where);

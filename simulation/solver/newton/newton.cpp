@@ -8,6 +8,7 @@
 #include "simulation/solver/energy_sum.h"
 #include "simulation/solver/newton/accesses.h"
 #include "simulation/solver/newton/conjugate_gradients.h"
+#include "simulation/solver/newton/refinement.h"
 
 namespace weft {
 
@@ -56,7 +57,7 @@ struct Smoother {
     TaskBody seams{"seams", kSeams, {}}, strips{"strips", kStrips, {}};
 };
 
-class NewtonSolver final : public Solver {
+class NewtonSolver final : public Solver, public NewtonRefinement {
 public:
     explicit NewtonSolver(Model& model)
         : model_(model),
@@ -98,13 +99,34 @@ public:
         for (const Region& region : regions_) add_predict(step, region);
         number_ = 0;
         add_check(step);
-        for (int i = 0; i < iterations_; ++i) add_iteration(step, i);
+        for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
         for (const Region& region : regions_) {
             if (!substep_.has_free_bodies()) break;
             substep_.add_sum(step, momentum_, region, *model_.positions, number_);
         }
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
+        step.seal();
+        return step;
+    }
+
+    void begin(std::span<const float4> positions, std::span<const float4> targets) override {
+        const auto [x, before, after] = gradients_.linearised_at();
+        for (Buffer<float4>* buffer : {&x, &before, &after}) {
+            std::ranges::copy(positions, buffer->data());
+        }
+        std::ranges::copy(targets, substep_.targets().data());
+        gradients_.coarse().hold(positions);
+    }
+
+    std::span<const float4> positions() const override { return model_.positions->span(); }
+
+    Step make_iteration(bool is_first, int gradient_steps) override {
+        regions_ = regions_of(Partition::whole(model_.strips.count()));
+        Step step;
+        number_ = 0;
+        if (is_first) add_check(step);
+        add_iteration(step, is_first ? 0 : 1, gradient_steps);
         step.seal();
         return step;
     }
@@ -171,14 +193,14 @@ private:
         return iteration > 20 ? most : std::min(most, std::max(1, most / 8) << iteration);
     }
 
-    void add_iteration(Step& step, int iteration) {
+    void add_iteration(Step& step, int iteration, int gradient_steps) {
         ++number_;
         for (const Region& region : regions_) {
             auto task = step.add(linearise_, number_, region.begin, region.end, region.id);
             gradients_.add_linearise_accesses(task, region.begin, region.end);
         }
         if (iteration % kCoarseEvery == 0) add_coarse(step);
-        for (int i = 0; i < steps_of(iteration); ++i) add_gradient_step(step);
+        for (int i = 0; i < gradient_steps; ++i) add_gradient_step(step);
         add_move(step);
         for (int i = 0; i < model_.scene.solver.sweeps; ++i) add_sweep(step);
         ++number_;
@@ -334,6 +356,10 @@ private:
 }  // namespace
 
 std::unique_ptr<Solver> make_newton_solver(Model& model) {
+    return std::make_unique<NewtonSolver>(model);
+}
+
+std::unique_ptr<NewtonRefinement> make_newton_refinement(Model& model) {
     return std::make_unique<NewtonSolver>(model);
 }
 

@@ -86,6 +86,8 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.dissipated, expected.dissipated);
     EXPECT_EQ(frame.strain_rms, expected.strain_rms);
     EXPECT_EQ(frame.strain_max, expected.strain_max);
+    EXPECT_EQ(frame.iterations, expected.iterations);
+    EXPECT_EQ(frame.relative_error, expected.relative_error);
     EXPECT_EQ(frame.substeps, expected.substeps);
     EXPECT_EQ(frame.energies, expected.energies);
     ASSERT_EQ(frame.plan.size(), expected.plan.size());

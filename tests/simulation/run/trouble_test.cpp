@@ -26,7 +26,8 @@ grid = { size = [1.0, 1.0], resolution = [40, 40] }
 density = 0.2
 stretch = { stiffness = 1.0e5 }
 damping = 0.1
-pins = { corners = ["x-z-", "x+z-"] }
+[cloth.pins]
+corners = ["x-z-", "x+z-"]
 )";
 
 Simulation simulation_of(const Scene& scene, OnTrouble on_trouble,
@@ -71,6 +72,19 @@ TEST(Trouble, IsReportedAndGoneOnWith) {
     Simulation stopped = simulation_of(too_long(), OnTrouble::kStop);
     EXPECT_THROW(while (stopped.frame() < 12) stopped.advance(), RunError);
     EXPECT_LE(simulation.troubles()[0].frame, stopped.frame());
+}
+
+/// Pins that all go one way are no excuse: what they do is known.
+TEST(Trouble, IsSeenWherePinsMoveTogether) {
+    Scene scene = parse_scene(kTooLong + R"(
+[cloth.pins.motion]
+velocity = [2.0, 0.0, 1.0]
+)",
+                              "test.toml");
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    while (simulation.frame() < 12) simulation.advance();
+    ASSERT_FALSE(simulation.troubles().empty());
+    EXPECT_NE(simulation.troubles()[0].what.find("energy from nowhere"), std::string::npos);
 }
 
 struct Halved {
@@ -156,6 +170,33 @@ motion = { velocity = [0.0, 0.5, 0.0] }
     EXPECT_GT(lifted, 0.4);
     EXPECT_NEAR(work, lifted, 0.15 * lifted);
     EXPECT_GT(frames.back().dissipated, -0.05 * frames.back().work);
+}
+
+/// What is carried along as a whole, from one moment to the next: the pins' push is all of the
+/// momentum that is not gravity's, and nothing is lost before it was there.
+TEST_P(EveryAccount, BooksThePushOfPinsExactly) {
+    const auto frames = run(scene_of(R"(
+[scene]
+frames = 12
+dt = 0.016666667
+substeps = 40
+gravity = [0.0, 0.0, 0.0]
+[solver]
+iterations = 30
+[[cloth]]
+grid = { size = [0.2, 0.2], resolution = [4, 4] }
+density = 0.2
+stretch = { stiffness = 1.0e2 }
+[cloth.pins]
+edges = ["z-"]
+motion = { velocity = [0.0, 0.0, -0.5] }
+)"));
+    const double mass = 0.008 * 0.75;  // less the pins' row, about
+    for (const FrameRecord& frame : frames) {
+        EXPECT_NEAR(frame.work - total(frame), frame.dissipated, 1e-12);
+        EXPECT_GT(frame.dissipated, -0.01 * mass * 0.25) << frame.frame;
+    }
+    EXPECT_GT(frames.back().work, 0.5 * mass * 0.25);
 }
 
 /// The same by a table that rises below it.

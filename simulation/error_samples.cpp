@@ -1,0 +1,82 @@
+#include "simulation/error_samples.h"
+
+#include <cmath>
+
+#include "simulation/families/convert.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+namespace {
+
+constexpr double kTouch = 1e-4;  ///< [m] from where an obstacle keeps a vertex
+
+/// In scene order: whether an obstacle touches the vertex.
+std::vector<char> held_by_obstacles(const Model& model, double time) {
+    if (!model.obstacles) return {};
+    std::vector<char> held(model.positions->count());
+    for (const Obstacle& obstacle : model.scene.obstacles) {
+        const Frame frame = obstacle.frame_at(time);
+        for_each_block(model.vertex_count(), [&](int /*block*/, int begin, int end) {
+            for (int v = begin; v < end; ++v) {
+                const Vec3 x = to_vec3((*model.positions)[static_cast<std::size_t>(v)]);
+                if (distance_to_local(obstacle, frame.to_local(x)) > obstacle.thickness + kTouch) {
+                    continue;
+                }
+                held[static_cast<std::size_t>(model.scene_vertex(v))] = 1;
+            }
+        });
+    }
+    return held;
+}
+
+/// What an iteration takes, as a part of what an estimate takes.
+double cost_of_iteration(const SolverSettings& solver) {
+    switch (solver.method) {
+        case Method::kXpbd:
+            return 0.015;
+        case Method::kVbd:
+        case Method::kSosd:
+            return 0.03;
+        case Method::kJpgd:
+            return 0.02;
+        case Method::kNewton:
+            return 0.4;
+    }
+    return 0.015;
+}
+
+}  // namespace
+
+int frames_per_estimate(const Model& model) {
+    constexpr double kShare = 0.015;  ///< of a run's time
+    const SolverSettings& solver = model.scene.solver;
+    const double frame = model.scene.substeps * solver.iterations * cost_of_iteration(solver);
+    return static_cast<int>(std::ceil(1.0 / (kShare * frame)));
+}
+
+bool ErrorSamples::wants(const Model& model, int frame) const {
+    if (model.families.empty()) return false;
+    const int every = frames_per_estimate(model);
+    return frame % every == every - 1 || frame == model.scene.frames - 1;
+}
+
+void ErrorSamples::begin(const Model& model, double time) {
+    ends_ = SubstepEnds{model.in_scene_order(model.positions->span()),
+                        model.in_scene_order(model.velocities->span()),
+                        {},
+                        time,
+                        {}};
+}
+
+std::optional<double> ErrorSamples::end(const Model& model) {
+    if (!ends_) return std::nullopt;
+    if (!error_) error_ = std::make_unique<StepError>(model.scene, threads_);
+    ends_->reached = model.in_scene_order(model.positions->span());
+    ends_->held = held_by_obstacles(model, ends_->time + model.h);
+    const std::optional<double> error = error_->of(*ends_);
+    ends_.reset();
+    return error;
+}
+
+}  // namespace weft

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "simulation/step_error.h"
+
+namespace weft {
+
+/// In which frames it is estimated how far their steps were solved, and the data for it. Always the
+/// last substep of a frame. Frames are chosen by counts, so that all estimates together take some
+/// per cent of a per cent less than two of a run's time.
+class ErrorSamples {
+public:
+    explicit ErrorSamples(int threads) : threads_(threads) {}
+
+    /// Whether the frame's last substep is to be kept; frames of the scene that the model is of.
+    bool wants(const Model& model, int frame) const;
+    /// The model is at the start of that substep, at a time [s].
+    void begin(const Model& model, double time);
+    /// The model is at its end. None: nothing was begun, or see StepError.
+    std::optional<double> end(const Model& model);
+    /// The model has other steps from now on.
+    void reset() { error_.reset(); }
+
+private:
+    int threads_;
+    std::unique_ptr<StepError> error_;  ///< null: not needed yet
+    std::optional<SubstepEnds> ends_;
+};
+
+/// An estimate is made in the last one of so many frames.
+int frames_per_estimate(const Model& model);
+
+}  // namespace weft

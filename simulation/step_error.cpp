@@ -1,0 +1,156 @@
+#include "simulation/step_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "runtime/executor.h"
+#include "runtime/tbb/cpu_device.h"
+#include "simulation/families/convert.h"
+#include "simulation/model/model.h"
+#include "simulation/solver/newton/refinement.h"
+
+namespace weft {
+
+namespace {
+
+/// Conjugate gradients per iteration. Two iterations find most of what is left, but for steps that
+/// are nearly solved already.
+constexpr std::array kGradientSteps{5, 5, 10, 20};
+constexpr double kEnough = 0.2;  ///< of all gains, what the last one may be
+
+/// One substep of the scene alone. What obstacles do is in the vertices that they hold.
+Scene scene_of_substep(Scene scene) {
+    scene.dt /= scene.substeps;
+    scene.substeps = 1;
+    scene.obstacles.clear();
+    scene.solver = {};
+    scene.solver.method = Method::kNewton;
+    scene.solver.iterations = 1;
+    return scene;
+}
+
+scheduler::Plan plan_on_one_device(const Step& step) {
+    scheduler::Plan plan;
+    for (std::size_t t = 0; t < step.tasks().size(); ++t) {
+        const auto start = static_cast<double>(t);
+        plan.placements.push_back({start, start + 1.0, 0});
+    }
+    plan.order_by_start(1);
+    return plan;
+}
+
+}  // namespace
+
+struct StepError::Iteration {
+    explicit Iteration(Step made) : step(std::move(made)), plan(plan_on_one_device(step)) {}
+    Step step;
+    scheduler::Plan plan;
+};
+
+StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
+    Warnings said_already;
+    model_ = std::make_unique<Model>(scene_of_substep(scene), said_already);
+    newton_ = make_newton_refinement(*model_);
+    device_ = make_cpu_device(threads, {});
+    executor_ = std::make_unique<Executor>(std::vector<Device*>{device_.get()}, newton_->bodies());
+    for (std::size_t i = 0; i < kGradientSteps.size(); ++i) {
+        iterations_.emplace_back(newton_->make_iteration(i == 0, kGradientSteps[i]));
+    }
+    for (const float4& x : model_->positions->span()) inverse_masses_.push_back(x.w);
+    targets_.resize(inverse_masses_.size());
+    reached_.resize(inverse_masses_.size());
+}
+
+StepError::~StepError() = default;
+
+std::optional<double> StepError::of(const SubstepEnds& ends) {
+    constexpr double kLostInRounding = 10.0;
+    start_at(ends);
+    double start = 0.0;
+    double reached = 0.0;
+    double rounding = 0.0;
+    threads_.execute([&] {
+        start = energy_at(targets_);
+        reached = energy_at(reached_);
+        rounding = std::abs(energy_of_rounding() - reached);
+    });
+    const double minimum = refine(reached);
+    const double least = kLostInRounding * rounding;
+    const double left = reached - minimum;
+    const double error = left / std::max(start - minimum, least);
+    if (left <= least && start - minimum <= least) return 0.0;
+    if (!std::isfinite(error)) return std::nullopt;
+    return error;
+}
+
+void StepError::start_at(const SubstepEnds& ends) {
+    model_->place(ends.time);
+    const Vec3 g = to_vec3((*model_->gravity)[0]);
+    const double h = model_->h;
+    for (std::size_t v = 0; v < reached_.size(); ++v) {
+        const auto own = static_cast<std::size_t>(model_->strips.order[v]);
+        const auto read = [&](const std::vector<float>& xyz) {
+            return Vec3{xyz[3 * own], xyz[3 * own + 1], xyz[3 * own + 2]};
+        };
+        const bool is_held = !ends.held.empty() && ends.held[own] != 0;
+        const float w = is_held ? 0.0f : inverse_masses_[v];
+        const Vec3 to = read(ends.reached);
+        const Vec3 fall = read(ends.positions) + h * (read(ends.velocities) + h * g);
+        reached_[v] = to_float4(to, static_cast<double>(w));
+        targets_[v] = to_float4(w > 0.0f ? fall : to);
+    }
+}
+
+double StepError::energy_at(std::span<const float4> x) const {
+    const double inverse_h2 = 1.0 / (model_->h * model_->h);
+    double sum = sum_of_blocks(static_cast<int>(x.size()), [&](int begin, int end) {
+        double part = 0.0;
+        for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+            if (reached_[v].w <= 0.0f) continue;
+            const Vec3 off = to_vec3(x[v]) - to_vec3(targets_[v]);
+            part += 0.5 * model_->masses[v] * inverse_h2 * dot(off, off);
+        }
+        return part;
+    });
+    for (const auto& family : model_->families) sum += family->total_energy(x);
+    return sum;
+}
+
+/// E where the coordinates' last bits are other ones.
+double StepError::energy_of_rounding() const {
+    constexpr float kHalfBit = 0.5f * std::numeric_limits<float>::epsilon();
+    std::vector<float4> off = reached_;
+    for (std::size_t v = 0; v < off.size(); ++v) {
+        if (off[v].w <= 0.0f) continue;
+        const auto factor = [&](std::size_t k) {
+            return (v * 7919 + k) % 5 < 3 ? 1.0f + 2.0f * kHalfBit : 1.0f - kHalfBit;
+        };
+        off[v] = {off[v].x * factor(0), off[v].y * factor(1), off[v].z * factor(3), off[v].w};
+    }
+    return energy_at(off);
+}
+
+/// What the minimum of E is, given E at x.
+double StepError::refine(double reached) {
+    newton_->begin(reached_, targets_);
+    double least = reached;
+    double last = 0.0;
+    double left = 0.0;
+    for (std::size_t i = 0; i < iterations_.size(); ++i) {
+        executor_->run(iterations_[i].step, iterations_[i].plan, 1);
+        double energy = 0.0;
+        threads_.execute([&] { energy = energy_at(newton_->positions()); });
+        const double gain = std::max(least - energy, 0.0);
+        least -= gain;
+        // What gains fall by tells what is still to come.
+        const double ratio = last > 0.0 ? std::min(gain / last, 0.5) : 0.0;
+        left = gain * ratio / (1.0 - ratio);
+        if (i > 0 && !(gain > kEnough * (reached - least))) break;
+        last = gain;
+    }
+    return least - left;
+}
+
+}  // namespace weft

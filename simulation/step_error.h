@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernels/platform.h"
+#include "runtime/tbb/parallel.h"
+#include "simulation/scene/scene.h"
+
+namespace weft {
+
+class Device;
+class Executor;
+class Model;
+class NewtonRefinement;
+
+/// The two ends of one substep: xyz of all vertices in scene order [m], [m/s].
+struct SubstepEnds {
+    std::vector<float> positions, velocities;  ///< at its start
+    std::vector<float> reached;                ///< positions at its end
+    double time = 0.0;                         ///< of its start [s]
+    /// [vertices] 1: something else than elements and inertia keeps it where it is; empty: none
+    std::vector<char> held;
+};
+
+/// How far a substep was solved: an estimate of the relative error that `weft error` measures,
+///
+///     (E(x) - E*) / (E0 - E*),    E0 at x~,
+///
+/// by going on from x with Newton's method until what is left to gain is small against what was
+/// gained. E* need only be known to a part of E(x) - E*, so a few conjugate gradients will do. The
+/// host does it on a model of its own, so the numbers do not depend on devices.
+class StepError {
+public:
+    /// scene: with its substeps. threads: to do it with
+    StepError(const Scene& scene, int threads);
+    ~StepError();
+
+    /// 0 where both x~ and x are as near to the minimum as single precision can tell. None where
+    /// the numbers have no meaning.
+    std::optional<double> of(const SubstepEnds& ends);
+
+private:
+    struct Iteration;
+    void start_at(const SubstepEnds& ends);
+    double energy_at(std::span<const float4> positions) const;
+    double energy_of_rounding() const;
+    double refine(double reached);
+
+    HostThreads threads_;
+    std::unique_ptr<Model> model_;
+    std::unique_ptr<NewtonRefinement> newton_;
+    std::unique_ptr<Device> device_;
+    std::unique_ptr<Executor> executor_;
+    std::vector<Iteration> iterations_;
+    std::vector<float> inverse_masses_;      ///< [vertices] of the model
+    std::vector<float4> targets_, reached_;  ///< [vertices] xyz, w = 1/mass, 0 for held ones
+};
+
+}  // namespace weft

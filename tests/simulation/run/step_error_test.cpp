@@ -1,0 +1,147 @@
+// How far a substep was solved, as runs estimate it, against the minimum that Newton's method finds
+// in double precision.
+
+#include "simulation/step_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "simulation/reference/newton.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "tests/simulation/reference/problems.h"
+#include "tests/simulation/run/physics.h"
+
+namespace weft::test {
+namespace {
+
+SimulationOptions on(const std::string& devices) {
+    SimulationOptions options;
+    options.devices = devices;
+    options.calibrate = false;
+    return options;
+}
+
+Scene one_step(const std::string& text, Method method, int iterations) {
+    Scene scene = parse_scene(text, "test.toml");
+    scene.solver.method = method;
+    scene.solver.iterations = iterations;
+    scene.dt /= scene.substeps;
+    scene.substeps = 1;
+    scene.frames = 1;
+    return scene;
+}
+
+struct Errors {
+    double estimated, measured;
+};
+
+Errors errors_of(const Scene& scene) {
+    Warnings warnings;
+    Simulation simulation(scene, on("cpu/1"), warnings);
+    const Model model(scene, warnings);
+    IncrementalPotential potential(model, 0.0);
+    const Minimum minimum = minimise(potential, potential.predicted());
+    EXPECT_LT(minimum.certificate.relative_gap, kSolvedGap);
+    const FrameRecord frame = simulation.advance();
+    std::vector<Vec3> x(potential.predicted().size());
+    model.from_scene_order(simulation.positions(), x);
+    const double gained = minimum.start_energy - minimum.energy;
+    return {frame.relative_error, (potential.energy(x) - minimum.energy) / gained};
+}
+
+class StepErrors : public EverySolver {};
+
+TEST_P(StepErrors, AreWithinAFactorOfThree) {
+    for (const std::string& text : {kPinnedSheet, kPinnedBlock, kPinnedWeave}) {
+        for (const int iterations : {1, 4, 30}) {
+            const Errors errors = errors_of(one_step(text, GetParam(), iterations));
+            ASSERT_TRUE(std::isfinite(errors.estimated));
+            if (errors.measured < 1e-3) continue;
+            EXPECT_LT(errors.estimated, 3.0 * errors.measured) << iterations << text;
+            EXPECT_GT(errors.estimated, errors.measured / 3.0) << iterations << text;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, StepErrors, kMethods, name_of_method);
+
+/// The estimate of the last frame.
+double last_estimate(const Scene& scene, const std::string& devices) {
+    Warnings warnings;
+    Simulation simulation(scene, on(devices), warnings);
+    FrameRecord frame;
+    while (simulation.frame() < scene.frames) frame = simulation.advance();
+    return frame.relative_error;
+}
+
+Scene everything(int frames, int substeps) {
+    Scene scene = parse_scene(kPinnedSheet + R"(
+[[obstacle]]
+shape = "plane"
+point = [0.0, -0.002, 0.0]
+friction = 0.2
+)",
+                              "test.toml");
+    scene.frames = frames;
+    scene.substeps = substeps;
+    scene.dt = 0.01 * substeps;
+    scene.solver.method = Method::kVbd;
+    return scene;
+}
+
+TEST(StepError, IsTheSameOnAllDevices) {
+    const double expected = last_estimate(everything(3, 4), "cpu/1");
+    EXPECT_GT(expected, 0.0);
+    for (const char* devices : {"cpu/2", "cpu/1+cpu/1", "opencl:0/1"}) {
+        EXPECT_EQ(last_estimate(everything(3, 4), devices), expected) << devices;
+    }
+}
+
+TEST(StepError, IsThatOfAFramesLastSubstep) {
+    EXPECT_EQ(last_estimate(everything(2, 3), "cpu/1"), last_estimate(everything(6, 1), "cpu/1"));
+}
+
+/// A sheet that lies on the ground has nothing left to gain there, though E has: the ground is in
+/// its way.
+TEST(StepError, LeavesOutWhatObstaclesDo) {
+    Scene scene = parse_scene(R"(
+[scene]
+frames = 3
+dt = 0.01
+substeps = 1
+[solver]
+method = "vbd"
+iterations = 60
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [6, 6] }
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+)",
+                              "test.toml");
+    EXPECT_LT(last_estimate(scene, "cpu/1"), 1e-3);
+}
+
+TEST(StepError, OfAFreeFallIsNone) {
+    Scene scene = one_step(kPinnedBlock, Method::kXpbd, 2);
+    for (Cloth& cloth : scene.cloths) cloth.pins.clear();
+    for (Solid& solid : scene.solids) solid.pins.clear();
+    EXPECT_EQ(last_estimate(scene, "cpu/1"), 0.0);
+}
+
+TEST(StepError, HasNoMeaningWhereNumbersHaveNone) {
+    const Scene scene = one_step(kPinnedSheet, Method::kXpbd, 2);
+    StepError error(scene, 1);
+    const std::vector<float> rest(3 * 7 * 8);
+    std::vector<float> bad = rest;
+    bad[17] = std::nanf("");
+    EXPECT_EQ(error.of({rest, rest, bad, 0.0, {}}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace weft::test
