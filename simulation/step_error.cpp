@@ -74,7 +74,7 @@ std::optional<double> StepError::of(const SubstepEnds& ends) {
     threads_.execute([&] {
         start = energy_at(targets_);
         reached = energy_at(reached_);
-        rounding = std::abs(energy_of_rounding() - reached);
+        rounding = std::abs(energy_of_rounding(reached));
     });
     const double minimum = refine(reached);
     const double least = kLostInRounding * rounding;
@@ -118,18 +118,21 @@ double StepError::energy_at(std::span<const float4> x) const {
     return sum;
 }
 
-/// E where the coordinates' last bits are other ones.
-double StepError::energy_of_rounding() const {
-    constexpr float kHalfBit = 0.5f * std::numeric_limits<float>::epsilon();
-    std::vector<float4> off = reached_;
-    for (std::size_t v = 0; v < off.size(); ++v) {
-        if (off[v].w <= 0.0f) continue;
-        const auto factor = [&](std::size_t k) {
-            return (v * 7919 + k) % 5 < 3 ? 1.0f + 2.0f * kHalfBit : 1.0f - kHalfBit;
-        };
-        off[v] = {off[v].x * factor(0), off[v].y * factor(1), off[v].z * factor(3), off[v].w};
+/// What E has more of where coordinates are off by as much as rounding leaves them, on average.
+double StepError::energy_of_rounding(double reached) const {
+    constexpr float kOff = 0.25f * std::numeric_limits<float>::epsilon();
+    std::vector<float4> up = reached_;
+    std::vector<float4> down = reached_;
+    for (std::size_t v = 0; v < up.size(); ++v) {
+        const float4 x = reached_[v];
+        if (x.w <= 0.0f) continue;
+        const auto off = [&](std::size_t k) { return (v * 7919 + 3 * k) % 5 < 3 ? kOff : -kOff; };
+        // Four times as much, so that something is left of it.
+        const float4 by{4.0f * off(0) * x.x, 4.0f * off(1) * x.y, 4.0f * off(2) * x.z, 0.0f};
+        up[v] = {x.x + by.x, x.y + by.y, x.z + by.z, x.w};
+        down[v] = {x.x - by.x, x.y - by.y, x.z - by.z, x.w};
     }
-    return energy_at(off);
+    return (energy_at(up) + energy_at(down) - 2.0 * reached) / 32.0;
 }
 
 /// What the minimum of E is, given E at x.

@@ -46,7 +46,7 @@ private:
     struct Iteration;
     void start_at(const SubstepEnds& ends);
     double energy_at(std::span<const float4> positions) const;
-    double energy_of_rounding() const;
+    double energy_of_rounding(double reached) const;
     double refine(double reached);
 
     HostThreads threads_;
