@@ -45,10 +45,10 @@ struct RunSummary {
     double work = 0.0;        ///< by what moves by itself, all frames [J]; NaN: not known
     double dissipated = 0.0;  ///< all frames [J]; NaN: not known
     // Of edges, |length / rest length - 1|.
-    double strain_rms = 0.0;            ///< of all, in the frame in which it is most
-    std::size_t strain_frame = 0;       ///< that frame
-    double strain_max = 0.0;            ///< of the worst edge of all frames
-    double strain_rms_at_end = 0.0;     ///< of all, after the last frame
+    double strain_rms = 0.0;         ///< of all, in the frame in which it is most
+    std::size_t strain_frame = 0;    ///< that frame
+    double strain_max = 0.0;         ///< of the worst edge of all frames
+    double strain_rms_at_end = 0.0;  ///< of all, after the last frame
     // How far steps were solved, of frames in which that was estimated.
     std::size_t estimates = 0;          ///< such frames
     double relative_error = 0.0;        ///< median

@@ -21,7 +21,8 @@ std::string goal_text(const ErrorCurve& curve, double goal) {
 }  // namespace
 
 std::string to_csv(const ErrorStudy& study) {
-    std::string csv = "solver,device,plan,iteration,time_s,energy,relative_error,relative_error_estimate\n";
+    std::string csv =
+        "solver,device,plan,iteration,time_s,energy,relative_error,relative_error_estimate\n";
     for (const ErrorCurve& curve : study.curves) {
         for (const ErrorPoint& point : curve.points) {
             const std::string estimate =
