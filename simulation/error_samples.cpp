@@ -1,6 +1,8 @@
 #include "simulation/error_samples.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/families/convert.h"
 #include "simulation/model/model.h"
@@ -10,25 +12,6 @@ namespace weft {
 namespace {
 
 constexpr double kTouch = 1e-4;  ///< [m] from where an obstacle keeps a vertex
-
-/// In scene order: whether an obstacle touches the vertex.
-std::vector<char> held_by_obstacles(const Model& model, double time) {
-    if (!model.obstacles) return {};
-    std::vector<char> held(model.positions->count());
-    for (const Obstacle& obstacle : model.scene.obstacles) {
-        const Frame frame = obstacle.frame_at(time);
-        for_each_block(model.vertex_count(), [&](int /*block*/, int begin, int end) {
-            for (int v = begin; v < end; ++v) {
-                const Vec3 x = to_vec3((*model.positions)[static_cast<std::size_t>(v)]);
-                if (distance_to_local(obstacle, frame.to_local(x)) > obstacle.thickness + kTouch) {
-                    continue;
-                }
-                held[static_cast<std::size_t>(model.scene_vertex(v))] = 1;
-            }
-        });
-    }
-    return held;
-}
 
 /// What an iteration takes, as a part of what an estimate takes.
 double cost_of_iteration(const SolverSettings& solver) {
@@ -48,6 +31,24 @@ double cost_of_iteration(const SolverSettings& solver) {
 
 }  // namespace
 
+std::vector<char> held_by_obstacles(const Model& model, double time) {
+    if (!model.obstacles) return {};
+    std::vector<char> held(model.positions->count());
+    for (const Obstacle& obstacle : model.scene.obstacles) {
+        const Frame frame = obstacle.frame_at(time);
+        for_each_block(model.vertex_count(), [&](int /*block*/, int begin, int end) {
+            for (int v = begin; v < end; ++v) {
+                const Vec3 x = to_vec3((*model.positions)[static_cast<std::size_t>(v)]);
+                if (distance_to_local(obstacle, frame.to_local(x)) > obstacle.thickness + kTouch) {
+                    continue;
+                }
+                held[static_cast<std::size_t>(model.scene_vertex(v))] = 1;
+            }
+        });
+    }
+    return held;
+}
+
 int frames_per_estimate(const Model& model) {
     constexpr double kShare = 0.015;  ///< of a run's time
     const SolverSettings& solver = model.scene.solver;
@@ -57,11 +58,14 @@ int frames_per_estimate(const Model& model) {
 
 bool ErrorSamples::wants(const Model& model, int frame) const {
     if (model.families.empty()) return false;
-    const int every = frames_per_estimate(model);
+    constexpr int kOften = 4;  // where iterations depend on it
+    int every = frames_per_estimate(model);
+    if (model.scene.solver.tolerance > 0.0) every = std::min(every, kOften);
     return frame % every == every - 1 || frame == model.scene.frames - 1;
 }
 
 void ErrorSamples::begin(const Model& model, double time) {
+    is_begun_ = true;
     ends_ = SubstepEnds{model.in_scene_order(model.positions->span()),
                         model.in_scene_order(model.velocities->span()),
                         {},
@@ -70,13 +74,11 @@ void ErrorSamples::begin(const Model& model, double time) {
 }
 
 std::optional<double> ErrorSamples::end(const Model& model) {
-    if (!ends_) return std::nullopt;
+    if (!std::exchange(is_begun_, false)) return std::nullopt;
     if (!error_) error_ = std::make_unique<StepError>(model.scene, threads_);
     ends_->reached = model.in_scene_order(model.positions->span());
     ends_->held = held_by_obstacles(model, ends_->time + model.h);
-    const std::optional<double> error = error_->of(*ends_);
-    ends_.reset();
-    return error;
+    return error_->of(*ends_);
 }
 
 }  // namespace weft

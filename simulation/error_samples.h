@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "simulation/step_error.h"
 
@@ -18,16 +19,24 @@ public:
     bool wants(const Model& model, int frame) const;
     /// The model is at the start of that substep, at a time [s].
     void begin(const Model& model, double time);
+    /// No substep of this frame is.
+    void skip() { is_begun_ = false; }
     /// The model is at its end. None: nothing was begun, or see StepError.
     std::optional<double> end(const Model& model);
+    /// What the last estimate was made of.
+    const SubstepEnds& last() const { return *ends_; }
     /// The model has other steps from now on.
     void reset() { error_.reset(); }
 
 private:
     int threads_;
     std::unique_ptr<StepError> error_;  ///< null: not needed yet
+    bool is_begun_ = false;
     std::optional<SubstepEnds> ends_;
 };
+
+/// In scene order: whether an obstacle touches the vertex at a time [s]. Empty: there are none.
+std::vector<char> held_by_obstacles(const Model& model, double time);
 
 /// An estimate is made in the last one of so many frames.
 int frames_per_estimate(const Model& model);

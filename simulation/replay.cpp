@@ -48,9 +48,14 @@ void Replay::advance(const FrameRecord& recorded) {
         refuse_replay(recorded.frame,
                       fmt::format("frame {} is not in the trace", simulation_.frame()));
     }
-    if (const auto substeps = static_cast<int>(recorded.substeps);
-        substeps > 0 && substeps != simulation_.model().scene.substeps) {
-        simulation_.set_substeps(substeps);
+    const Scene& scene = simulation_.model().scene;
+    const auto or_as_now = [](std::uint32_t number, int now) {
+        return number > 0 ? static_cast<int>(number) : now;
+    };
+    const int substeps = or_as_now(recorded.substeps, scene.substeps);
+    const int iterations = or_as_now(recorded.iterations, scene.solver.iterations);
+    if (substeps != scene.substeps || iterations != scene.solver.iterations) {
+        simulation_.set_steps(substeps, iterations);
         plans_.forget_steps();
     }
     const auto [step, plan] = plans_.plan_of(recorded, simulation_.devices().size());

@@ -22,6 +22,9 @@ TextPairs settings_of(const Model& model, const Solver& solver) {
                        {"iterations", std::to_string(scene.solver.iterations)},
                        {"vertices", std::to_string(model.vertex_count())},
                        {"strips", std::to_string(model.strips.count())}};
+    if (scene.solver.tolerance > 0.0) {
+        settings.emplace_back("tolerance", fmt::format("{}", scene.solver.tolerance));
+    }
     if (solver.iterate_count() > 1) {
         settings.emplace_back("iterates", std::to_string(solver.iterate_count()));
     }

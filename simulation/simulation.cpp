@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "runtime/cores.h"
 #include "runtime/error.h"
@@ -14,6 +15,7 @@
 #include "simulation/solver/async_iterates.h"
 #include "simulation/solver/own_iterates.h"
 #include "simulation/start_checks.h"
+#include "simulation/tolerance_advice.h"
 #include "simulation/watch.h"
 
 namespace weft {
@@ -66,7 +68,8 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       solver_(make_solver_for(*model_, options, devices.size())),
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
                                      host_threads(devices))),
-      first_substeps_(model_->scene.substeps) {
+      first_substeps_(model_->scene.substeps),
+      most_iterations_(model_->scene.solver.iterations) {
     if (options.on_trouble != OnTrouble::kIgnore) {
         samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
     }
@@ -98,12 +101,15 @@ void Simulation::restore(const SimulationState& state) {
 Checkpoint Simulation::checkpoint() const {
     Checkpoint checkpoint = snapshot()->checkpoint(frame_);
     checkpoint.substeps = model_->scene.substeps;
+    checkpoint.iterations = model_->scene.solver.iterations;
+    checkpoint.failed_iterations = failed_iterations_;
     checkpoint.account = watch_->account().save();
     return checkpoint;
 }
 
 void Simulation::resume(const Checkpoint& checkpoint) {
-    if (checkpoint.substeps != model_->scene.substeps) set_substeps(checkpoint.substeps);
+    set_steps(checkpoint.substeps, checkpoint.iterations);
+    failed_iterations_ = checkpoint.failed_iterations;
     SimulationState state = *snapshot();
     state.take(checkpoint);
     frame_ = checkpoint.frame;
@@ -113,11 +119,16 @@ void Simulation::resume(const Checkpoint& checkpoint) {
 }
 
 /// Everything that knows the length of a step is made anew; devices and costs stay.
-void Simulation::set_substeps(int substeps) {
+void Simulation::set_steps(int substeps, int iterations) {
     Scene scene = model_->scene;
+    const bool has_other_length = substeps != scene.substeps;
+    if (!has_other_length && iterations == scene.solver.iterations) return;
     scene.substeps = substeps;
+    scene.solver.iterations = iterations;
     SimulationState state = *snapshot();
-    for (auto& bytes : state.solver) std::fill(bytes.begin(), bytes.end(), std::byte{});
+    if (has_other_length) {
+        for (auto& bytes : state.solver) std::fill(bytes.begin(), bytes.end(), std::byte{});
+    }
     Warnings said_already;
     auto model = std::make_shared<Model>(scene, said_already);
     for (std::size_t v = 0; v < state.velocities.size(); ++v) {
@@ -127,7 +138,7 @@ void Simulation::set_substeps(int substeps) {
     model_.swap(model);
     solver_.swap(solver);
     run_->take_over(*solver_, model_->strips.count());  // while those before are there
-    if (samples_) samples_->reset();
+    if (samples_ && has_other_length) samples_->reset();
     place();
     restore(state);
 }
@@ -222,7 +233,10 @@ RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
 RunTimes Simulation::run_substeps(const Step& step, const scheduler::Plan& plan) {
     const int substeps = model_->scene.substeps;
     Executor& executor = run_->executor();
-    if (!samples_ || !samples_->wants(*model_, frame_)) return executor.run(step, plan, substeps);
+    if (!samples_ || !samples_->wants(*model_, frame_)) {
+        if (samples_) samples_->skip();
+        return executor.run(step, plan, substeps);
+    }
     RunTimes times;
     if (substeps > 1) {
         times = executor.run(step, plan, substeps - 1);
@@ -245,13 +259,14 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     const int substeps = model_->scene.substeps;
     const RunTimes times = run_frame(*plan.step, plan.plan);
     end_part(frame, frame.execute_time);
-    const bool accepted = accepts(*plan.step, frame);
+    const bool accepted = accepts(*plan.step, true, frame);
     end_part(frame, frame.check_time);
     if (!accepted) return false;
     run_->record(plan, times, substeps, details.tasks, frame);
     run_->learn(plan, times, substeps, frame_);
     end_part(frame, frame.learn_time);
     ++frame_;
+    iterate_less(frame.relative_error);
     if (details.state_hash) frame.state_hash = hash();
     end_part(frame, frame.measure_time);
     return true;
@@ -262,23 +277,61 @@ void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
     place();
     run_frame(step, plan);
     FrameRecord frame;
-    accepts(step, frame);
+    accepts(step, false, frame);
     ++frame_;
 }
 
 /// Looks at the frame that has just run, and writes down what there is to see.
-bool Simulation::accepts(const Step& step, FrameRecord& frame) {
+bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) {
     const double end = time() + model_->scene.dt;
     const Watch::Look look = watch_->look(*model_, *start_, time(), end);
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
+    const auto error = samples_ && may_repeat ? samples_->end(*model_) : std::nullopt;
+    if (error && iterates_more(*error)) return false;
     watch_->accept(look, look.alarm.has_value());
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
-    if (const auto error = samples_ ? samples_->end(*model_) : std::nullopt) {
-        frame.relative_error = *error;
-    }
+    if (error) frame.relative_error = *error;
     return true;
+}
+
+/// Whether the frame is to be done again with more iterations.
+bool Simulation::iterates_more(double error) {
+    const SolverSettings& solver = model_->scene.solver;
+    if (solver.tolerance == 0.0 || error <= solver.tolerance) return false;
+    if (solver.iterations >= most_iterations_) {
+        tell_of_tolerance(error);
+        return false;
+    }
+    failed_iterations_ = std::max(failed_iterations_, solver.iterations);
+    restore(*start_);
+    set_steps(model_->scene.substeps, std::min(most_iterations_, 2 * solver.iterations));
+    start_ = snapshot();
+    snapshot_.reset();
+    return true;
+}
+
+/// Frames to come take fewer iterations where far fewer seem to do, and did not fail before.
+void Simulation::iterate_less(double error) {
+    constexpr double kFarBelow = 0.125;
+    const SolverSettings& solver = model_->scene.solver;
+    const int half = (solver.iterations + 1) / 2;
+    if (solver.tolerance == 0.0 || half == solver.iterations || half <= failed_iterations_) return;
+    if (error <= kFarBelow * solver.tolerance) set_steps(model_->scene.substeps, half);
+}
+
+/// Once: what would reach it is tried out, which takes a while.
+void Simulation::tell_of_tolerance(double error) {
+    if (std::exchange(tolerance_told_, true)) return;
+    const SolverSettings& solver = model_->scene.solver;
+    troubles_.push_back(
+        {frame_,
+         fmt::format("solver.tolerance = {:g} is not reached: the relative error of a step is some "
+                     "{:.2g} after {} iterations; {}",
+                     solver.tolerance, error, solver.iterations,
+                     advise_tolerance(model_->scene, samples_->last())),
+         false});
 }
 
 bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {
@@ -301,7 +354,7 @@ bool Simulation::halve(const Alarm& alarm) {
     const int substeps = 2 * model_->scene.substeps;
     if (substeps > kMostRefinement * first_substeps_) return false;
     restore(*start_);
-    set_substeps(substeps);
+    set_steps(substeps, model_->scene.solver.iterations);
     start_ = snapshot();
     snapshot_.reset();
     tell(alarm, fmt::format("done again, and all that follows, with {} substeps", substeps));

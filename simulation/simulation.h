@@ -99,9 +99,9 @@ public:
     /// Simulates the next frame by a plan from elsewhere, a replay's. Nothing is planned, learnt or
     /// measured. Throws RunError if a device failed or the state went bad.
     void advance_by(const Step& step, const scheduler::Plan& plan);
-    /// Goes on with so many substeps per frame, from here on. What a solver remembers of earlier
-    /// substeps is forgotten.
-    void set_substeps(int substeps);
+    /// Goes on with so many substeps per frame and iterations of each, from here on. What a solver
+    /// remembers of substeps of another length is forgotten.
+    void set_steps(int substeps, int iterations);
     Step make_step(const Division& division) {
         return solver_->make_step(division.partition().spread(solver_->iterate_count()));
     }
@@ -136,7 +136,10 @@ private:
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
-    bool accepts(const Step& step, FrameRecord& frame);
+    bool accepts(const Step& step, bool may_repeat, FrameRecord& frame);
+    bool iterates_more(double error);
+    void iterate_less(double error);
+    void tell_of_tolerance(double error);
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
     void tell(const Alarm& alarm, const std::string& what);
@@ -149,6 +152,9 @@ private:
     std::unique_ptr<ErrorSamples> samples_;  ///< null: nothing is estimated
     std::unique_ptr<PlannedExecutor> run_;
     int first_substeps_ = 0;  ///< that the run began with
+    int most_iterations_ = 0;    ///< likewise
+    int failed_iterations_ = 0;  ///< that were seen to be too few for the tolerance
+    bool tolerance_told_ = false;
     mutable Snapshots snapshots_;
     std::shared_ptr<const SimulationState> start_;  ///< of the frame at hand
     /// Of the present state; null: none was asked for yet.

@@ -12,9 +12,9 @@ namespace weft {
 
 namespace {
 
-// Text lines: format, origin, frame and substeps, the account's bits, sizes of the report and the
+// Text lines: format, origin, frame, substeps and iterations, the account's bits, sizes of the report and the
 // buffers; then their bytes, then kEnd.
-constexpr const char* kFormat = "weft-checkpoint 3";
+constexpr const char* kFormat = "weft-checkpoint 4";
 constexpr const char* kEnd = "end";
 
 template <class Bytes>
@@ -32,7 +32,11 @@ void read_bytes(std::istream& in, Bytes& bytes) {
 void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
                       const Checkpoint& checkpoint) {
     std::string head = std::string(kFormat) + '\n' + origin + '\n';
-    head += std::to_string(checkpoint.frame) + ' ' + std::to_string(checkpoint.substeps) + '\n';
+    for (const int number : {checkpoint.frame, checkpoint.substeps, checkpoint.iterations,
+                             checkpoint.failed_iterations}) {
+        head += std::to_string(number) + ' ';
+    }
+    head += '\n';
     for (const double value : checkpoint.account) {
         head += std::to_string(std::bit_cast<std::uint64_t>(value)) + ' ';
     }
@@ -75,13 +79,16 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
         return size;
     };
     Checkpoint checkpoint;
-    in >> checkpoint.frame >> checkpoint.substeps;
+    in >> checkpoint.frame >> checkpoint.substeps >> checkpoint.iterations >>
+        checkpoint.failed_iterations;
     for (double& value : checkpoint.account) {
         std::uint64_t bits = 0;
         in >> bits;
         value = std::bit_cast<double>(bits);
     }
-    if (!in || checkpoint.frame < 0 || checkpoint.substeps < 1) throw damaged();
+    if (!in || checkpoint.frame < 0 || checkpoint.substeps < 1 || checkpoint.iterations < 1) {
+        throw damaged();
+    }
     checkpoint.report.resize(read_size());
     const std::uintmax_t count = read_size();
     for (std::uintmax_t b = 0; b < count; ++b) checkpoint.buffers.emplace_back(read_size());

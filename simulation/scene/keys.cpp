@@ -61,6 +61,10 @@ const TableKeys& solver_table() {
          .help = "iterations per substep",
          .fallback = std::int64_t{SolverSettings{}.iterations},
          .range = between(1, 1e5)},
+        {.name = "tolerance",
+         .help = "relative error of a step that will do, as estimated: fewer iterations where they "
+                 "reach it; default: none",
+         .range = {.low = 0.0, .high = 1.0, .low_excluded = true}},
         {.name = "cg_steps",
          .type = Type::kInteger,
          .help = "newton only: conjugate gradients per iteration, from the fourth iteration on",

@@ -116,6 +116,7 @@ SolverSettings read_solver(const Node& table) {
     SolverSettings solver;
     solver.method = method_named(text_value(table, "method"));
     solver.iterations = integer_value(table, "iterations");
+    if (table.find("tolerance")) solver.tolerance = number_value(table, "tolerance");
     solver.cg_steps = integer_value(table, "cg_steps");
     solver.sweeps = integer_value(table, "sweeps");
     if (const int most = most_iterations(solver); solver.iterations > most) {

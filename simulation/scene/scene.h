@@ -25,6 +25,8 @@ namespace weft {
 struct SolverSettings {
     Method method = Method::kXpbd;
     int iterations = 8;  ///< per substep, >= 1
+    /// Relative error of a step that will do: fewer iterations where they reach it; 0: none.
+    double tolerance = 0.0;
     int cg_steps = 40;   ///< newton: of conjugate gradients, per iteration, >= 1
     int sweeps = 2;      ///< newton: of vertex block descent, per iteration, >= 0
 };

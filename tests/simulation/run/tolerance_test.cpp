@@ -1,0 +1,113 @@
+// Iterations until the estimate says that it is enough.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "runtime/opencl/opencl_device.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+
+namespace weft::test {
+namespace {
+
+/// A sheet that swings on two corners: first much, later less is to be solved.
+Scene swinging(const std::string& solver) {
+    return parse_scene(R"(
+[scene]
+frames = 24
+dt = 0.016666667
+substeps = 4
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [12, 12] }
+density = 0.2
+stretch = { stiffness = 1.0e4 }
+bend = { stiffness = 1.0e-3 }
+pins = { corners = ["x-z-", "x+z-"] }
+[solver]
+)" + solver,
+                       "test.toml");
+}
+
+const std::string kReachable = "method = \"vbd\"\niterations = 256\ntolerance = 1.0e-2\n";
+
+Simulation simulation_of(const Scene& scene, const std::string& devices = "cpu/1") {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = devices;
+    options.calibrate = false;
+    options.plan = PlanKind::kSingle;
+    return {scene, options, warnings};
+}
+
+TEST(Tolerance, IsKeptWithFewerIterationsThanTheMost) {
+    const Scene scene = swinging(kReachable);
+    Simulation simulation = simulation_of(scene);
+    int estimates = 0;
+    std::uint32_t fewest = 256;
+    while (simulation.frame() < scene.frames) {
+        const FrameRecord frame = simulation.advance();
+        fewest = std::min(fewest, frame.iterations);
+        EXPECT_LE(frame.iterations, 256U);
+        if (!std::isfinite(frame.relative_error)) continue;
+        EXPECT_LE(frame.relative_error, 1e-2) << frame.frame;
+        ++estimates;
+    }
+    EXPECT_GE(estimates, 6);
+    EXPECT_LT(fewest, 256U);
+    EXPECT_TRUE(simulation.troubles().empty());
+}
+
+std::string hash_on(const std::string& devices) {
+    Simulation simulation = simulation_of(swinging(kReachable), devices);
+    while (simulation.frame() < 24) simulation.advance();
+    return simulation.hash();
+}
+
+TEST(Tolerance, GivesTheSameBitsOnEveryDevice) {
+    const std::string hash = hash_on("cpu/1");
+    EXPECT_EQ(hash_on("cpu/2"), hash);
+    if (opencl_devices().empty()) return;
+    EXPECT_EQ(hash_on("opencl:0/1"), hash);
+    EXPECT_EQ(hash_on("cpu/1+opencl:0/1"), hash);
+}
+
+TEST(Tolerance, GoesOnFromACheckpoint) {
+    Simulation first = simulation_of(swinging(kReachable));
+    while (first.frame() < 13) first.advance();
+    ASSERT_LT(first.model().scene.solver.iterations, 256);
+    Simulation second = simulation_of(swinging(kReachable));
+    second.resume(first.checkpoint());
+    EXPECT_EQ(second.model().scene.solver.iterations, first.model().scene.solver.iterations);
+    while (second.frame() < 24) second.advance();
+    EXPECT_EQ(second.hash(), hash_on("cpu/1"));
+}
+
+/// The advice holds: a run that takes it is below the tolerance in that frame.
+TEST(Tolerance, SaysWhatWouldReachIt) {
+    const Scene scene = swinging("method = \"vbd\"\niterations = 4\ntolerance = 0.05\n");
+    Simulation simulation = simulation_of(scene);
+    while (simulation.troubles().empty() && simulation.frame() < scene.frames) simulation.advance();
+    ASSERT_EQ(simulation.troubles().size(), 1U);
+    const Trouble& trouble = simulation.troubles().front();
+    EXPECT_FALSE(trouble.is_explosion);
+    std::smatch found;
+    const std::regex advice("([0-9]+) substeps of ([0-9]+) iterations");
+    ASSERT_TRUE(std::regex_search(trouble.what, found, advice)) << trouble.what;
+    EXPECT_NE(trouble.what.find("by newton"), std::string::npos) << trouble.what;
+
+    Scene followed = swinging("method = \"vbd\"\niterations = " + found[2].str());
+    followed.substeps = std::stoi(found[1]);
+    followed.frames = trouble.frame + 1;
+    Simulation better = simulation_of(followed);
+    FrameRecord frame;
+    while (better.frame() < followed.frames) frame = better.advance();
+    EXPECT_LT(frame.relative_error, 2.0 * 0.05);
+
+    while (simulation.frame() < scene.frames) simulation.advance();
+    EXPECT_EQ(simulation.troubles().size(), 1U) << "it is said once";
+}
+
+}  // namespace
+}  // namespace weft::test
