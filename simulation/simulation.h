@@ -151,7 +151,7 @@ private:
     std::unique_ptr<Watch> watch_;
     std::unique_ptr<ErrorSamples> samples_;  ///< null: nothing is estimated
     std::unique_ptr<PlannedExecutor> run_;
-    int first_substeps_ = 0;  ///< that the run began with
+    int first_substeps_ = 0;     ///< that the run began with
     int most_iterations_ = 0;    ///< likewise
     int failed_iterations_ = 0;  ///< that were seen to be too few for the tolerance
     bool tolerance_told_ = false;

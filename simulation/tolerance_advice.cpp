@@ -84,8 +84,8 @@ std::string advise_tolerance(const Scene& scene, const SubstepEnds& ends) {
         }
         if (factor > 1 || solver.method == Method::kNewton) continue;
         if (const auto enough = trials.find(Method::kNewton, 1, kMostOfNewton)) {
-            ways.push_back(fmt::format("{} substeps of {} iterations by newton", scene.substeps,
-                                       *enough));
+            ways.push_back(
+                fmt::format("{} substeps of {} iterations by newton", scene.substeps, *enough));
         }
     }
     if (ways.empty()) return "nothing that was tried reaches it";

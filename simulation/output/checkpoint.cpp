@@ -12,8 +12,8 @@ namespace weft {
 
 namespace {
 
-// Text lines: format, origin, frame, substeps and iterations, the account's bits, sizes of the report and the
-// buffers; then their bytes, then kEnd.
+// Text lines: format, origin, frame, substeps and iterations, the account's bits, sizes of the
+// report and the buffers; then their bytes, then kEnd.
 constexpr const char* kFormat = "weft-checkpoint 4";
 constexpr const char* kEnd = "end";
 

@@ -27,8 +27,8 @@ struct SolverSettings {
     int iterations = 8;  ///< per substep, >= 1
     /// Relative error of a step that will do: fewer iterations where they reach it; 0: none.
     double tolerance = 0.0;
-    int cg_steps = 40;   ///< newton: of conjugate gradients, per iteration, >= 1
-    int sweeps = 2;      ///< newton: of vertex block descent, per iteration, >= 0
+    int cg_steps = 40;  ///< newton: of conjugate gradients, per iteration, >= 1
+    int sweeps = 2;     ///< newton: of vertex block descent, per iteration, >= 0
 };
 
 /// A flat sheet in the x-z plane, its centre at the origin. Vertex (i, k) has index
