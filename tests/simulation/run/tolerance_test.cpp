@@ -75,7 +75,8 @@ TEST(Tolerance, GivesTheSameBitsOnEveryDevice) {
 
 TEST(Tolerance, GoesOnFromACheckpoint) {
     Simulation first = simulation_of(swinging(kReachable));
-    while (first.frame() < 13) first.advance();
+    const auto iterations = [&] { return first.model().scene.solver.iterations; };
+    while (first.frame() < 23 && iterations() == 256) first.advance();
     ASSERT_LT(first.model().scene.solver.iterations, 256);
     Simulation second = simulation_of(swinging(kReachable));
     second.resume(first.checkpoint());
