@@ -1,21 +1,38 @@
-# Script behind weft_embed_kernels(): OUTPUT, ROOT, HEADERS (a list).
+# Script behind weft_add_kernels(): writes OUTPUT, a source that holds the text of the headers PATHS
+# under their NAMES, and hands it to the registry. ANCHOR: a symbol that makes a linker keep this
+# file, and with it those of the VARIANTS. Without an anchor, the text is what language_sources()
+# gives instead.
 
 set(entries "")
 set(delimiter "weft_source")
-foreach(header IN LISTS HEADERS)
-  file(READ ${ROOT}/${header} text)
-  string(APPEND entries "    {\"${header}\", R\"${delimiter}(${text})${delimiter}\"},\n")
+foreach(name path IN ZIP_LISTS NAMES PATHS)
+  file(READ ${path} text)
+  string(APPEND entries "    {\"${name}\", R\"${delimiter}(${text})${delimiter}\"},\n")
 endforeach()
-list(LENGTH HEADERS count)
-file(WRITE ${OUTPUT} "// Made by cmake/EmbedKernels.cmake.
-#include \"kernels/sources.h\"
+list(LENGTH NAMES count)
 
-namespace weft::kernels {
+set(source "// Made by weft's EmbedKernels.cmake.
+#include <weft/kernel.h>
+
 namespace {
-constexpr SourceFile kFiles[${count}] = {
+constexpr weft::kernels::SourceFile kFiles[${count}] = {
 ${entries}};
-}
-
-std::span<const SourceFile> source_files() { return kFiles; }
+")
+if(ANCHOR)
+  string(APPEND source "[[maybe_unused]] const bool kAdded = weft::kernels::add_sources(kFiles);\n}\n\nextern \"C\" {\n")
+  set(list "")
+  foreach(variant IN LISTS VARIANTS)
+    string(APPEND source "extern const int ${ANCHOR}_${variant};\n")
+    string(APPEND list "&${ANCHOR}_${variant}, ")
+  endforeach()
+  string(APPEND source "extern const int* const ${ANCHOR}[];
+const int* const ${ANCHOR}[] = {${list}};
 }
 ")
+else()
+  string(APPEND source "}
+
+std::span<const weft::kernels::SourceFile> weft::kernels::language_sources() { return kFiles; }
+")
+endif()
+file(WRITE ${OUTPUT} "${source}")

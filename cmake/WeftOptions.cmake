@@ -1,7 +1,18 @@
 # What can be switched, and the compiler flags that every Weft target shares.
 
-option(WEFT_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
-option(WEFT_BUILD_BENCHMARKS "Build the benchmarks" ${PROJECT_IS_TOP_LEVEL})
+set(WEFT_COMPONENTS all CACHE STRING
+    "What to build, with all that it needs: scheduler (the standard library alone), runtime, simulation, all")
+set_property(CACHE WEFT_COMPONENTS PROPERTY STRINGS scheduler runtime simulation all)
+if(NOT WEFT_COMPONENTS MATCHES "^(scheduler|runtime|simulation|all)$")
+  message(FATAL_ERROR "WEFT_COMPONENTS: '${WEFT_COMPONENTS}' is none of scheduler, runtime, simulation, all")
+endif()
+set(own_build OFF)
+if(PROJECT_IS_TOP_LEVEL AND WEFT_COMPONENTS STREQUAL "all")
+  set(own_build ON)
+endif()
+
+option(WEFT_BUILD_TESTS "Build the tests" ${own_build})
+option(WEFT_BUILD_BENCHMARKS "Build the benchmarks" ${own_build})
 option(WEFT_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 option(WEFT_VALIDATE "Check Weft's own invariants (scheduler/assert.h)" OFF)
 option(WEFT_OCLGRIND "Add a ctest entry under oclgrind for each test of kernels" OFF)
@@ -22,6 +33,8 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)                       # for clang-tidy and editors
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 endif()
+
+configure_file(${PROJECT_SOURCE_DIR}/weft/version.h.in ${PROJECT_BINARY_DIR}/include/weft/version.h @ONLY)
 
 # Flags that users of the installed libraries need as well: they compile our inline functions.
 add_library(weft_options INTERFACE)

@@ -39,7 +39,7 @@ include_directions() {
       grep -vE "include +\"($allowed)[/\"]" && wrong=1
   done <<'TABLE'
 kernels    kernels
-scheduler  scheduler
+scheduler  scheduler|weft/version.h
 runtime    kernels|scheduler|runtime
 runtime/io kernels|runtime/error.h|runtime/io
 simulation kernels|scheduler|runtime|simulation
@@ -53,6 +53,7 @@ simulation/solver    kernels|scheduler/(assert|exchange_map).h|runtime|simulatio
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|reference)
 simulation/output    runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps
+weft       kernels|scheduler|runtime|simulation
 TABLE
   # A header of the standard library has neither a dot nor a slash in its name.
   sources 'scheduler/*.h' 'scheduler/*.cpp' | xargs -r grep -nHE '^ *# *include +<[^>]*[./]' &&

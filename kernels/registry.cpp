@@ -1,44 +1,31 @@
 #include "kernels/registry.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
-#include <string>
+
+#include "kernels/sources.h"
 
 namespace weft::kernels {
-
-// Defined beside the kernels of each target: calling them makes the linker keep those files.
-void link_scalar_kernels();
-void link_packed_kernels();
-#ifdef WEFT_HAS_AVX2_KERNELS
-void link_packed_avx2_kernels();
-#endif
 
 namespace {
 
 bool can_run(Target target) {
-#ifdef WEFT_HAS_AVX2_KERNELS
+#if defined(__x86_64__)
     if (target == Target::kPackedAvx2) return __builtin_cpu_supports("avx2");
 #endif
     return target != Target::kPackedAvx2;
 }
 
 struct Registry {
-    std::map<std::string_view, KernelInfo> kernels;
-    std::map<std::string_view, Target> packed_target;  ///< which target `packed` came from
+    std::map<std::string, KernelInfo> kernels;
+    std::map<std::string, Target> packed_target;  ///< which target `packed` came from
+    std::vector<SourceFile> sources;              ///< ordered by path, the language's included
 };
 
 Registry& registry() {
-    static Registry instance;
+    static Registry instance{{}, {}, {language_sources().begin(), language_sources().end()}};
     return instance;
-}
-
-const Registry& complete_registry() {
-    link_scalar_kernels();
-    link_packed_kernels();
-#ifdef WEFT_HAS_AVX2_KERNELS
-    link_packed_avx2_kernels();
-#endif
-    return registry();
 }
 
 /// "/anywhere/kernels/xpbd/springs.h" -> "kernels/xpbd/springs.h"
@@ -47,17 +34,33 @@ std::string_view from_project_root(std::string_view file) {
     return at == std::string_view::npos ? file : file.substr(at);
 }
 
+/// The last component of a path, without those before it.
+std::string_view take_last(std::string_view& path) {
+    const std::size_t slash = path.rfind('/');
+    const std::string_view last = slash == std::string_view::npos ? path : path.substr(slash + 1);
+    path = slash == std::string_view::npos ? std::string_view() : path.substr(0, slash);
+    return last;
+}
+
+/// How many components at their ends are the same.
+int common_tail(std::string_view a, std::string_view b) {
+    int common = 0;
+    while (!a.empty() && !b.empty() && take_last(a) == take_last(b)) ++common;
+    return common;
+}
+
 }  // namespace
 
-bool add_kernel(std::string_view name, std::string_view file, std::vector<Parameter> parameters) {
-    KernelInfo& info = registry().kernels[name];
-    info.name = name;
-    info.file = from_project_root(file);
-    info.parameters = std::move(parameters);
+bool add_kernel(const std::string& name, KernelInfo info) {
+    KernelInfo& known = registry().kernels[name];
+    info.scalar = known.scalar;
+    info.packed = known.packed;
+    if (info.space.empty()) info.file = from_project_root(info.file);
+    known = std::move(info);
     return true;
 }
 
-bool add_range_function(Target target, std::string_view name, RangeFunction function) {
+bool add_range_function(Target target, const std::string& name, RangeFunction function) {
     KernelInfo& info = registry().kernels[name];
     if (target == Target::kScalar) {
         info.scalar = function;
@@ -73,17 +76,51 @@ bool add_range_function(Target target, std::string_view name, RangeFunction func
     return true;
 }
 
-const KernelInfo& kernel_info(std::string_view name) {
-    const auto& kernels = complete_registry().kernels;
+const KernelInfo& kernel_info(const std::string& name) {
+    const auto& kernels = registry().kernels;
     const auto found = kernels.find(name);
-    if (found == kernels.end()) throw std::logic_error("no kernel '" + std::string(name) + "'");
+    if (found == kernels.end() || found->second.scalar == nullptr) {
+        throw std::logic_error("kernel '" + name +
+                               "' has not been compiled: give its header to weft_add_kernels()");
+    }
     return found->second;
 }
 
 std::vector<const KernelInfo*> all_kernels() {
     std::vector<const KernelInfo*> list;
-    for (const auto& [name, info] : complete_registry().kernels) list.push_back(&info);
+    for (const auto& [name, info] : registry().kernels) list.push_back(&info);
     return list;
+}
+
+bool add_sources(std::span<const SourceFile> files) {
+    auto& sources = registry().sources;
+    sources.insert(sources.end(), files.begin(), files.end());
+    std::ranges::sort(sources, {}, &SourceFile::path);
+    const auto same = [](const SourceFile& a, const SourceFile& b) {
+        return a.path == b.path && a.text == b.text;
+    };
+    sources.erase(std::unique(sources.begin(), sources.end(), same), sources.end());
+    return true;
+}
+
+std::span<const SourceFile> source_files() { return registry().sources; }
+
+const SourceFile* find_source(std::string_view path) {
+    const SourceFile* best = nullptr;
+    int most = 0;
+    for (const SourceFile& file : registry().sources) {
+        const int common = common_tail(file.path, path);
+        if (common <= most) continue;
+        most = common;
+        best = &file;
+    }
+    return best;
+}
+
+const SourceFile* find_included(std::string_view name) {
+    const SourceFile* file = find_source(name);
+    const auto wanted = 1 + static_cast<int>(std::ranges::count(name, '/'));
+    return file != nullptr && common_tail(file->path, name) == wanted ? file : nullptr;
 }
 
 }  // namespace weft::kernels

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -23,23 +24,42 @@ enum class Parameter {
     kWriteInt,
     kWriteFloat4,
     kFloat,
-    kInt
+    kInt,
+    kReadOther,  ///< of an element type of one's own
+    kWriteOther
 };
+
+/// A namespace of kernels, as a type: what WEFT_KERNELS_IN can say several times.
+template <std::size_t N>
+struct FixedText {
+    char text[N] = {};
+    constexpr FixedText(const char (&from)[N]) {
+        for (std::size_t i = 0; i < N; ++i) text[i] = from[i];
+    }
+};
+template <FixedText T>
+struct KernelSpace {
+    static constexpr const char* kName = T.text;
+};
+using kernel_space = KernelSpace<"">;  ///< of Weft's own kernels
 
 /// Runs one kernel over items [begin, end). `arguments` points to one value per parameter.
 using RangeFunction = void (*)(int begin, int end, const void* const* arguments);
 
 /// All that is known of one kernel.
 struct KernelInfo {
-    std::string_view name;
-    std::string_view file;  ///< the header that defines it, from the project's root
+    std::string_view name;   ///< without its namespace
+    std::string_view space;  ///< "heat::"; empty: Weft's own
+    std::string_view file;   ///< the header that defines it, as its compiler names it
     std::vector<Parameter> parameters;
-    RangeFunction scalar = nullptr;  ///< one item at a time
-    RangeFunction packed = nullptr;  ///< 8 lanes, on the best instructions that this processor has
+    std::string_view parameter_text;  ///< as they are written
+    RangeFunction scalar = nullptr;   ///< one item at a time
+    RangeFunction packed = nullptr;   ///< 8 lanes, on the best instructions that this processor has
 };
 
-/// The kernel of that name. Every kernel is registered before main() begins.
-const KernelInfo& kernel_info(std::string_view name);
+/// The kernel of that name, with its namespace: "heat::diffuse". Every kernel is registered before
+/// main() begins. Throws std::logic_error where nobody has compiled it.
+const KernelInfo& kernel_info(const std::string& name);
 
 /// All kernels, ordered by name.
 std::vector<const KernelInfo*> all_kernels();
@@ -49,11 +69,23 @@ std::vector<const KernelInfo*> all_kernels();
 /// kPacked is built for the baseline of the architecture, kPackedAvx2 (x86-64) for AVX2.
 enum class Target { kScalar, kPacked, kPackedAvx2 };
 
-bool add_kernel(std::string_view name, std::string_view file, std::vector<Parameter> parameters);
-bool add_range_function(Target target, std::string_view name, RangeFunction function);
+/// The names live as long as the program. name: with its namespace.
+bool add_kernel(const std::string& name, KernelInfo info);
+bool add_range_function(Target target, const std::string& name, RangeFunction function);
+
+template <class T>
+inline constexpr bool is_other_element =
+    std::is_pointer_v<T>&& std::is_class_v<std::remove_pointer_t<T>> &&
+    !std::is_same_v<std::remove_cv_t<std::remove_pointer_t<T>>, float4>;
 
 template <class T>
 constexpr Parameter parameter_of() {
+    static_assert(is_other_element<T> || std::is_same_v<T, float> || std::is_same_v<T, int> ||
+                      (std::is_pointer_v<T> && (std::is_convertible_v<T, const float*> ||
+                                                std::is_convertible_v<T, const int*> ||
+                                                std::is_convertible_v<T, const float4*>)),
+                  "a kernel's parameters are float, int, or pointers to float, int, float4 or a "
+                  "struct of one's own");
     if constexpr (std::is_same_v<T, const float*>) return Parameter::kReadFloat;
     if constexpr (std::is_same_v<T, const int*>) return Parameter::kReadInt;
     if constexpr (std::is_same_v<T, const float4*>) return Parameter::kReadFloat4;
@@ -62,6 +94,10 @@ constexpr Parameter parameter_of() {
     if constexpr (std::is_same_v<T, float4*>) return Parameter::kWriteFloat4;
     if constexpr (std::is_same_v<T, float>) return Parameter::kFloat;
     if constexpr (std::is_same_v<T, int>) return Parameter::kInt;
+    if constexpr (is_other_element<T>) {
+        return std::is_const_v<std::remove_pointer_t<T>> ? Parameter::kReadOther
+                                                         : Parameter::kWriteOther;
+    }
 }
 
 template <class Function>
@@ -97,16 +133,26 @@ void run_range(int begin, int end, const void* const* arguments) {
                       std::make_index_sequence<std::tuple_size_v<Types>>());
 }
 
+/// With its namespace.
+template <class Kernel>
+std::string name_of_kernel() {
+    return std::string(Kernel::kSpace) + Kernel::kName;
+}
+
 template <class Kernel>
 bool register_scalar() {
-    return add_kernel(Kernel::kName, Kernel::kFile,
-                      Signature<decltype(Kernel::run)>::parameters()) &&
-           add_range_function(Target::kScalar, Kernel::kName, &run_range<Kernel>);
+    return add_kernel(name_of_kernel<Kernel>(),
+                      {.name = Kernel::kName,
+                       .space = Kernel::kSpace,
+                       .file = Kernel::kFile,
+                       .parameters = Signature<decltype(Kernel::run)>::parameters(),
+                       .parameter_text = Kernel::kParameters}) &&
+           add_range_function(Target::kScalar, name_of_kernel<Kernel>(), &run_range<Kernel>);
 }
 
 template <class Kernel>
 bool register_packed(Target target) {
-    return add_range_function(target, Kernel::kName, &run_range<Kernel>);
+    return add_range_function(target, name_of_kernel<Kernel>(), &run_range<Kernel>);
 }
 
 }  // namespace weft::kernels

@@ -17,7 +17,7 @@ namespace weft {
 class BufferStorage {
 public:
     BufferStorage(std::string name, std::size_t count, std::size_t element_size);
-    ~BufferStorage() = default;
+    ~BufferStorage() { *alive_ = false; }
     BufferStorage(const BufferStorage&) = delete;
     BufferStorage& operator=(const BufferStorage&) = delete;
 
@@ -35,22 +35,30 @@ public:
     int generation() const { return generation_; }
     /// The memory for who may need it a little longer than the buffer has it: a driver.
     std::shared_ptr<const void> memory() const { return host_; }
+    /// Whether the buffer is still there, for those who would use it.
+    std::shared_ptr<const bool> alive() const { return alive_; }
 
 private:
     std::string name_;
     std::size_t count_;
     std::size_t element_size_;
     std::shared_ptr<void> host_;
+    std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
     int generation_ = 0;
 };
 
-/// A typed array: the only way data reaches a kernel. T is float, int or float4.
+/// A typed array: the only way data reaches a kernel. T is float, int, float4, or a struct of such
+/// values that is written in C (kernels/members.h): no more than 4 bytes may be its alignment, but
+/// for float4 in it.
 ///
 /// The host may read and write data() between frames only; while an executor runs, the devices own
-/// it. Buffers must outlive the executors that used them.
+/// it. Buffers must outlive the executors that use them: a run without one of them throws Misuse.
 template <class T>
 class Buffer : public BufferStorage {
-    static_assert(std::is_same_v<T, float> || std::is_same_v<T, int> || std::is_same_v<T, float4>);
+    static_assert(std::is_same_v<T, float> || std::is_same_v<T, int> ||
+                      (std::is_class_v<T> && std::is_trivially_copyable_v<T> &&
+                       alignof(T) <= alignof(float4) && sizeof(T) % sizeof(float) == 0),
+                  "a buffer holds float, int, float4, or plain structs of these");
 
 public:
     Buffer(std::string name, std::size_t count)

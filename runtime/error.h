@@ -13,6 +13,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// A program uses the library in a way that cannot be: what was asked for would read or write where
+/// nothing is, or mean nothing. The message says what, of which buffer, task or kernel.
+class Misuse : public std::logic_error {
+public:
+    using std::logic_error::logic_error;
+};
+
 /// The run failed: diverged, disk full, a device lost with none left. Exit code 1.
 class RunError : public std::runtime_error {
 public:

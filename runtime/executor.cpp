@@ -1,6 +1,7 @@
 #include "runtime/executor.h"
 
 #include <algorithm>
+#include <set>
 
 #include "runtime/clock.h"
 #include "runtime/cores.h"
@@ -11,13 +12,44 @@ namespace weft {
 
 namespace {
 
-/// Whether every task has a device.
-[[maybe_unused]] bool fits(const Step& step, const scheduler::Plan& plan, std::size_t devices) {
-    const auto is_there = [&](const scheduler::Placement& p) {
-        return p.processor < devices && p.start <= p.end;
+std::string number(std::size_t count, const char* what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+/// Every task must be in its device's row, once.
+void refuse_other_plan(const Step& step, const scheduler::Plan& plan, std::size_t devices) {
+    const std::size_t tasks = step.tasks().size();
+    const auto refuse = [](const std::string& why) {
+        throw Misuse("the plan is not of this step: " + why);
     };
-    return plan.placements.size() == step.tasks().size() &&
-           std::ranges::all_of(plan.placements, is_there);
+    if (plan.placements.size() != tasks || plan.order.size() != tasks) {
+        refuse("it has " + number(plan.placements.size(), "task") + ", and the step has " +
+               std::to_string(tasks));
+    }
+    if (plan.order_begin.size() != devices + 1) {
+        refuse("it is for " +
+               number(std::max<std::size_t>(plan.order_begin.size(), 1) - 1, "device") +
+               ", and there are " + std::to_string(devices));
+    }
+    for (std::size_t d = 0; d < devices; ++d) {
+        for (const scheduler::TaskId task : plan.tasks_on(static_cast<scheduler::ProcessorId>(d))) {
+            if (task >= tasks) refuse("it names task " + std::to_string(task));
+            if (plan.placements[task].processor != d) {
+                refuse("task " + std::to_string(task) + " is in the row of device " +
+                       std::to_string(d) + ", and placed on device " +
+                       std::to_string(plan.placements[task].processor));
+            }
+        }
+    }
+}
+
+void refuse_more_instances(const Step& step, int instances) {
+    for (const auto& [buffer, per_instance] : step.instance_limits()) {
+        const std::size_t most = buffer->count() / static_cast<std::size_t>(per_instance);
+        if (static_cast<std::size_t>(instances) <= most) continue;
+        throw Misuse("buffer '" + buffer->name() + "' has rows for " + number(most, "instance") +
+                     ", and the step is to be run for " + std::to_string(instances));
+    }
 }
 
 }  // namespace
@@ -31,7 +63,6 @@ public:
           plan_(plan),
           order_(submission_order(step, plan)),
           hop_count_(executor.devices_.size(), 0) {
-        WEFT_ASSERT(fits(step, plan, executor.devices_.size()));
         previous_.resize(order_.size(), nullptr);
         current_.resize(order_.size(), nullptr);
         group(step.dependencies(), within_);
@@ -179,7 +210,8 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
 Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const> bodies,
                    double epoch)
     : devices_(std::move(devices)), epoch_(epoch) {
-    WEFT_ASSERT(!devices_.empty());
+    if (devices_.empty()) throw Misuse("an executor needs at least one device");
+    note_buffers(bodies);
     for (Device* device : devices_) {
         streams_.push_back(device->open_stream(bodies));
         one_memory_ = one_memory_ && device->info().memory == MemoryModel::kHost;
@@ -187,6 +219,38 @@ Executor::Executor(std::vector<Device*> devices, std::span<const TaskBody* const
 }
 
 Executor::~Executor() = default;
+
+void Executor::note_buffers(std::span<const TaskBody* const> bodies) {
+    std::set<const BufferStorage*> seen;
+    const auto note = [&](const BufferStorage* buffer) {
+        if (buffer == nullptr || !seen.insert(buffer).second) return;
+        buffers_.push_back({buffer->name(), buffer->alive()});
+    };
+    for (const TaskBody* body : bodies) {
+        for (const Launch& launch : body->launches) {
+            note(launch.segments.begin);
+            for (const Argument& argument : launch.arguments) note(argument.buffer);
+        }
+    }
+}
+
+void Executor::check(const Step& step, const scheduler::Plan& plan, int instances,
+                     int first_instance) const {
+    if (!step.sealed()) throw Misuse("the step is not sealed: call seal() when all tasks are in");
+    if (instances < 1 || first_instance < 0) {
+        throw Misuse("a step is run for at least one instance, from 0 on; not for " +
+                     std::to_string(instances) + " from " + std::to_string(first_instance));
+    }
+    refuse_other_plan(step, plan, devices_.size());
+    for (const UsedBuffer& buffer : buffers_) {
+        if (!*buffer.alive) {
+            throw Misuse("buffer '" + buffer.name +
+                         "' is there no more: it must outlive what "
+                         "runs on it");
+        }
+    }
+    refuse_more_instances(step, first_instance + instances);
+}
 
 double Executor::clock() const { return now() - epoch_; }
 
@@ -209,6 +273,7 @@ void RunTimes::append(RunTimes next) {
 
 RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instances,
                        int first_instance) {
+    check(step, plan, instances, first_instance);
     for (const auto& stream : streams_) stream->begin(epoch_);
     memory_.settle();
     // Submitting disturbs the devices that stay on their cores; it shall not wander among them.
@@ -217,7 +282,6 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
 
     RunTimes times;
     times.start = clock();
-    WEFT_ASSERT(instances > 0 && first_instance >= 0);
     Run run(*this, step, plan);
     std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
     for (int i = 0; i < instances; ++i) {

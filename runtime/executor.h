@@ -58,7 +58,8 @@ public:
 
     /// Runs the step `instances` times in a row by one plan (processors are the devices, in order)
     /// and waits for the end. Instances are numbered from first_instance. Throws DeviceLost when a
-    /// device fails.
+    /// device fails; Misuse for a step that is not sealed, a plan that is not of it and of these
+    /// devices, more instances than a buffer has rows for, and a buffer that is there no more.
     RunTimes run(const Step& step, const scheduler::Plan& plan, int instances,
                  int first_instance = 0);
 
@@ -77,6 +78,13 @@ public:
 
 private:
     class Run;
+    struct UsedBuffer {
+        std::string name;
+        std::shared_ptr<const bool> alive;
+    };
+    void note_buffers(std::span<const TaskBody* const> bodies);
+    void check(const Step& step, const scheduler::Plan& plan, int instances,
+               int first_instance) const;
     /// Calls on a device's stream; what it throws becomes DeviceLost.
     template <class Call>
     void on(std::size_t device, Call call);
@@ -85,6 +93,7 @@ private:
 
     std::vector<Device*> devices_;
     std::vector<std::unique_ptr<DeviceStream>> streams_;
+    std::vector<UsedBuffer> buffers_;  ///< that the bodies work on
     MemoryMap memory_;
     bool one_memory_ = true;  ///< all devices work in the host's: nothing to copy, nothing to track
     double epoch_;

@@ -35,6 +35,10 @@ struct Segments {
     int largest(int colour, int first_strip, int end_strip) const;
 };
 
+/// Strips of about the same size over items 0 to item_count, in one colour.
+/// begin  [strips + 1], filled in; it must outlive the table. Throws Misuse for fewer than 2.
+Segments even_strips(Buffer<int>& begin, int item_count);
+
 /// Stands for an int parameter that takes the number of the running instance of the step: within a
 /// frame, the number of the substep.
 struct Instance {};
@@ -62,6 +66,9 @@ struct Launch {
     Segments segments;
 };
 
+/// Throws Misuse where the CPU has no form of the kernel with so many lanes (1 or 8).
+void check_variant(const Launch& launch, int lanes);
+
 /// Launches that run one after the other on each strip: what a task does. Tasks of one kind share
 /// it.
 struct TaskBody {
@@ -76,7 +83,14 @@ struct TaskBody {
     long item_count(int first_strip, int end_strip) const;
 };
 
+/// Does all of a body's work on one strip, by the scalar kernels: for devices of one's own, and for
+/// tests of others. Throws Misuse where a kernel has no scalar variant.
+void run_on_host(const TaskBody& body, int strip, int instance = 0, int iteration = 0);
+
 namespace detail {
+
+/// Throws Misuse where nobody has compiled it.
+const kernels::KernelInfo* compiled_kernel(const std::string& name);
 
 template <class Parameter, class Value>
 Argument make_argument(Value& value) {
@@ -110,12 +124,13 @@ std::vector<Argument> make_arguments(std::index_sequence<I...>, Values&... value
 
 /// Binds a kernel's arguments: launch(kernels::project_springs, segments, positions, ends, ...).
 /// A missing argument, or a buffer of another type than the kernel's parameter, does not compile.
+/// Throws Misuse for a kernel that was not compiled: weft_add_kernels() does that.
 template <class Kernel, class... Values>
 Launch launch(Kernel, const Segments& segments, Values&&... values) {
     using Parameters = kernels::ParametersOf<Kernel>;
     static_assert(std::tuple_size_v<Parameters> == sizeof...(Values),
                   "one argument per parameter of the kernel");
-    return {&kernels::kernel_info(Kernel::kName),
+    return {detail::compiled_kernel(kernels::name_of_kernel<Kernel>()),
             detail::make_arguments<Parameters>(std::index_sequence_for<Values...>(), values...),
             segments};
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 #include <string>
 
+#include "runtime/error.h"
 #include "scheduler/assert.h"
 
 namespace weft {
@@ -28,9 +28,9 @@ bool apart(const Segments* a, const Segments* b) {
 }
 
 [[noreturn]] void refuse(const Task& task, const Access& access, const std::string& why) {
-    throw std::logic_error("task '" + task.body->name + "', buffer '" + access.buffer->name() +
-                           "', access [" + std::to_string(access.begin) + ", " +
-                           std::to_string(access.end) + "): " + why);
+    throw Misuse("task '" + task.body->name + "', buffer '" + access.buffer->name() +
+                 "', access [" + std::to_string(access.begin) + ", " + std::to_string(access.end) +
+                 "): " + why);
 }
 
 /// Accesses in different units cannot be compared: so a buffer has one, or tables of it that share
@@ -62,7 +62,7 @@ void refuse_outside(const Task& task, const Access& access) {
 }
 
 /// Launches that take turns go colour by colour through the same strips.
-[[maybe_unused]] bool takes_turns_on_equal_terms(const TaskBody& body) {
+bool takes_turns_on_equal_terms(const TaskBody& body) {
     const auto turns = static_cast<std::size_t>(body.taking_turns);
     if (turns > body.launches.size()) return false;
     return std::ranges::all_of(body.launches.begin(), body.launches.begin() + body.taking_turns,
@@ -71,6 +71,26 @@ void refuse_outside(const Task& task, const Access& access) {
                                    return launch.segments.colour_count == first.colour_count &&
                                           launch.segments.strip_count == first.strip_count;
                                });
+}
+
+[[noreturn]] void refuse(const TaskBody& body, const std::string& why) {
+    throw Misuse("a task of body '" + body.name + "': " + why);
+}
+
+void refuse_impossible(const TaskBody& body, int iteration, int first_strip, int end_strip,
+                       int region) {
+    if (iteration < 0 || region < 0) refuse(body, "iteration and region must be 0 or more");
+    for (const Launch& launch : body.launches) {
+        if (launch.segments.begin == nullptr) refuse(body, "a launch has no table of strips");
+        if (0 <= first_strip && first_strip < end_strip && end_strip <= launch.segments.strip_count)
+            continue;
+        refuse(body, "strips [" + std::to_string(first_strip) + ", " + std::to_string(end_strip) +
+                         "), and kernel '" + std::string(launch.kernel->name) + "' has [0, " +
+                         std::to_string(launch.segments.strip_count) + ")");
+    }
+    if (!takes_turns_on_equal_terms(body)) {
+        refuse(body, "launches that take turns need the same strips and numbers of colours");
+    }
 }
 
 int overlap(const Access& a, const Access& b) {
@@ -117,6 +137,20 @@ Step::Adding& Step::Adding::reads(BufferStorage& buffer, const Segments& strips)
     return access({&buffer, &strips, task.first_strip, task.end_strip, false});
 }
 
+Step::Adding& Step::Adding::reads(BufferStorage& buffer, const Segments& strips, int begin,
+                                  int end) {
+    return access({&buffer, &strips, begin, end, false});
+}
+
+Step::Adding& Step::Adding::reads_by_instance(BufferStorage& buffer, int elements_per_instance) {
+    if (elements_per_instance < 1) {
+        throw Misuse("buffer '" + buffer.name() + "': " + std::to_string(elements_per_instance) +
+                     " elements per instance");
+    }
+    step_.add_instance_limit({&buffer, elements_per_instance});
+    return reads(buffer, 0, static_cast<int>(buffer.count()));
+}
+
 Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strips) {
     const Task& task = step_.tasks_[static_cast<std::size_t>(task_)];
     return access({&buffer, &strips, task.first_strip, task.end_strip, true});
@@ -124,12 +158,8 @@ Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strip
 
 Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int end_strip,
                        int region) {
-    WEFT_ASSERT(iteration >= 0 && region >= 0);
-    WEFT_ASSERT(0 <= first_strip && first_strip <= end_strip);
-    WEFT_ASSERT(std::ranges::all_of(body.launches, [&](const Launch& launch) {
-        return end_strip <= launch.segments.strip_count;
-    }));
-    WEFT_ASSERT(takes_turns_on_equal_terms(body));
+    refuse_if_sealed();
+    refuse_impossible(body, iteration, first_strip, end_strip, region);
     tasks_.push_back({&body,
                       iteration,
                       first_strip,
@@ -140,8 +170,18 @@ Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int
     return {*this, static_cast<int>(tasks_.size()) - 1};
 }
 
+void Step::refuse_if_sealed() const {
+    if (sealed_) throw Misuse("the step is sealed: tasks are added before that");
+}
+
+void Step::add(const Task& task) {
+    refuse_if_sealed();
+    tasks_.push_back(task);
+}
+
 void Step::seal() {
-    WEFT_ASSERT(dependencies_.empty() && carried_.empty());
+    refuse_if_sealed();
+    sealed_ = true;
     refuse_mixed_units(tasks_);
     // Two instances in a row; a dependency is kept unless it follows from others already. The
     // transitive ones are found through the set of tasks that each task is known to come after.

@@ -36,7 +36,8 @@ struct Dependency {
 
 /// A task graph that runs several times in a row (the substep of a frame). Tasks are added in an
 /// order in which they could run one after the other; what depends on what follows from their
-/// accesses.
+/// accesses. Throws Misuse for what cannot be: an access outside its buffer, strips that a launch
+/// does not have, one buffer in units of two kinds, tasks after seal().
 class Step {
 public:
     /// Adds a task; chain .reads(), .updates() on the result at once.
@@ -45,6 +46,11 @@ public:
         Adding(Step& step, int task) : step_(step), task_(task) {}
         Adding& reads(BufferStorage& buffer, int begin, int end);
         Adding& reads(BufferStorage& buffer, const Segments& strips);
+        /// The items of other strips than its own.
+        Adding& reads(BufferStorage& buffer, const Segments& strips, int begin, int end);
+        /// All of it, of which each instance needs rows of its own: the step can then be run for no
+        /// more instances than there are rows.
+        Adding& reads_by_instance(BufferStorage& buffer, int elements_per_instance = 1);
         Adding& updates(BufferStorage& buffer, int begin, int end);
         Adding& updates(BufferStorage& buffer, const Segments& strips);
 
@@ -54,11 +60,12 @@ public:
         int task_;
     };
     /// Adds a copy of a task of another step.
-    void add(const Task& task) { tasks_.push_back(task); }
+    void add(const Task& task);
     Adding add(const TaskBody& body, int iteration, int first_strip, int end_strip, int region);
 
     /// Finds the dependencies; call once, when all tasks are there.
     void seal();
+    bool sealed() const { return sealed_; }
 
     const std::vector<Task>& tasks() const { return tasks_; }
     /// Within one instance.
@@ -66,10 +73,22 @@ public:
     /// From tasks of one instance to tasks of the next.
     const std::vector<Dependency>& carried() const { return carried_; }
 
+    /// A buffer that has rows for so many instances only.
+    struct InstanceLimit {
+        const BufferStorage* buffer = nullptr;
+        int elements_per_instance = 1;
+    };
+    const std::vector<InstanceLimit>& instance_limits() const { return limits_; }
+    void add_instance_limit(const InstanceLimit& limit) { limits_.push_back(limit); }
+
 private:
+    void refuse_if_sealed() const;
+
     std::vector<Task> tasks_;
     std::vector<Dependency> dependencies_;
     std::vector<Dependency> carried_;
+    std::vector<InstanceLimit> limits_;
+    bool sealed_ = false;
 };
 
 }  // namespace weft

@@ -1,6 +1,6 @@
 #include "runtime/submission_order.h"
 
-#include "scheduler/assert.h"
+#include "runtime/error.h"
 
 namespace weft {
 
@@ -52,12 +52,12 @@ private:
 }  // namespace
 
 std::vector<int> submission_order(const Step& step, const scheduler::Plan& plan) {
-    WEFT_ASSERT(plan.order.size() == step.tasks().size());
-    WEFT_ASSERT(!plan.order_begin.empty());
     Walk walk(step, plan);
     std::vector<int> order;
     for (std::size_t i = 0; i < plan.order.size(); ++i) order.push_back(walk.take());
-    WEFT_ASSERT(order.empty() || order.back() >= 0);
+    if (!order.empty() && order.back() < 0) {
+        throw Misuse("the plan's order cannot be followed: a task stands before one that it needs");
+    }
     return order;
 }
 

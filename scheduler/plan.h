@@ -53,6 +53,7 @@ struct Plan {
 
     /// The tasks of one processor in order of execution.
     std::span<const TaskId> tasks_on(ProcessorId p) const {
+        if (std::size_t{p} + 1 >= order_begin.size()) return {};
         return {order.data() + order_begin[p], order_begin[p + 1] - order_begin[p]};
     }
 };

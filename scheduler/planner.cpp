@@ -1,6 +1,8 @@
 #include "scheduler/planner.h"
 
 #include <array>
+#include <stdexcept>
+#include <string>
 
 #include "scheduler/cpop.h"
 #include "scheduler/heft.h"
@@ -54,7 +56,9 @@ std::unique_ptr<Planner> make_planner(std::string_view name) {
     for (const Entry& entry : kPlanners) {
         if (entry.name == name) return entry.make();
     }
-    return nullptr;
+    std::string message = "there is no planner '" + std::string(name) + "'; there are";
+    for (const std::string_view known : kNames) message += ' ' + std::string(known);
+    throw std::invalid_argument(message);
 }
 
 }  // namespace weft::scheduler

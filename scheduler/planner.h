@@ -27,8 +27,9 @@ public:
     /// sealed.
     virtual void schedule(const TaskGraph& graph, Plan& plan) = 0;
 
-    /// Fills the plan, lower bounds included. The graph must be sealed.
+    /// Fills the plan, lower bounds included. Throws GraphError for a graph that is not sealed.
     void plan(const TaskGraph& graph, Plan& plan) {
+        static_cast<void>(graph.topological_order());  // there is none before it is sealed
         schedule(graph, plan);
         if (plan.path_bound == 0.0) bounds_.apply(graph, plan);
     }
@@ -41,7 +42,7 @@ private:
 /// in-order, portfolio, optimal.
 std::span<const std::string_view> planner_names();
 
-/// A planner with its default settings; nullptr for an unknown name.
+/// A planner with its default settings. Throws std::invalid_argument for an unknown name.
 std::unique_ptr<Planner> make_planner(std::string_view name);
 
 }  // namespace weft::scheduler

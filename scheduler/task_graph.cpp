@@ -191,6 +191,10 @@ void TaskGraph::sort_topologically() {
     for (std::uint32_t i = 0; i < n; ++i) order_index_[order_[i]] = i;
 }
 
+void TaskGraph::refuse_unsealed() {
+    throw GraphError("the graph is not sealed: call seal() after the last task, edge and link");
+}
+
 void TaskGraph::throw_cycle() const {
     // Every task that was not ordered still misses a predecessor that was not ordered either:
     // walking from one to the next must run into a cycle.

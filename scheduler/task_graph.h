@@ -109,13 +109,16 @@ public:
     /// processor.
     double mean_transfer_time(double data) const;
 
-    // The rest needs a sealed graph.
+    // The rest needs a sealed graph; GraphError tells who asks an unsealed one for its order.
     std::span<const Arc> successors(TaskId t) const { return row(successor_, successor_begin_, t); }
     std::span<const Arc> predecessors(TaskId t) const {
         return row(predecessor_, predecessor_begin_, t);
     }
     /// Every task after its predecessors; among the ready ones the lowest id first.
-    std::span<const TaskId> topological_order() const { return order_; }
+    std::span<const TaskId> topological_order() const {
+        if (!sealed_) refuse_unsealed();
+        return order_;
+    }
     /// Position of a task in topological_order().
     std::uint32_t topological_index(TaskId task) const { return order_index_[task]; }
 
@@ -149,6 +152,7 @@ private:
     void fill_rows();
     void sort_topologically();
     [[noreturn]] void throw_cycle() const;
+    [[noreturn]] static void refuse_unsealed();
 
     ProcessorId processor_count_ = 0;
     bool sealed_ = false;

@@ -9,6 +9,8 @@
 // business of the compiler's flags. See kernels/CMakeLists.txt.
 #define WEFT_TARGET WEFT_PACKED_TARGET
 #define WEFT_REGISTER(kernel) register_packed<kernel>(WEFT_PACKED_ID)
+#define WEFT_REGISTRATION(name) \
+    inline const bool name##_is_registered = WEFT_REGISTER(name##_kernel);
 
 WEFT_KERNELS_BEGIN
 

@@ -6,6 +6,14 @@
 
 #define WEFT_TARGET scalar
 #define WEFT_REGISTER(kernel) register_scalar<kernel>()
+// Other sources only name kernels, to launch them: what they would be compiled to there, with who
+// knows which flags, is nobody's variant.
+#ifdef WEFT_SCALAR_TARGET
+#define WEFT_REGISTRATION(name) \
+    inline const bool name##_is_registered = WEFT_REGISTER(name##_kernel);
+#else
+#define WEFT_REGISTRATION(name)
+#endif
 
 WEFT_KERNELS_BEGIN
 

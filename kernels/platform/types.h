@@ -18,20 +18,29 @@ struct alignas(16) float4 {
 #define WEFT_KERNELS_BEGIN    \
     namespace weft::kernels { \
     inline namespace WEFT_TARGET {
+/// The same in a namespace of one's own: kernels of other projects do not meet then.
+#define WEFT_KERNELS_IN(space)       \
+    namespace space {                \
+    inline namespace WEFT_TARGET {   \
+    using namespace ::weft::kernels; \
+    using ::weft::float4;            \
+    using kernel_space = ::weft::kernels::KernelSpace<#space "::">;
 #define WEFT_KERNELS_END \
     }                    \
     }
 
 /// Defines a kernel: WEFT_KERNEL(name, parameters...) { body for item i }.
 /// `weft::kernels::name` is then a constant whose type carries the signature, for typed launches.
-#define WEFT_KERNEL(name, ...)                                             \
-    struct name##_kernel {                                                 \
-        static constexpr const char* kName = #name;                        \
-        static constexpr const char* kFile = __FILE__;                     \
-        static constexpr int kLaneCount = kLanes;                          \
-        using Item = item;                                                 \
-        static inline void run(item i, __VA_ARGS__);                       \
-    };                                                                     \
-    inline constexpr name##_kernel name{};                                 \
-    inline const bool name##_is_registered = WEFT_REGISTER(name##_kernel); \
+#define WEFT_KERNEL(name, ...)                                     \
+    struct name##_kernel {                                         \
+        static constexpr const char* kName = #name;                \
+        static constexpr const char* kSpace = kernel_space::kName; \
+        static constexpr const char* kFile = __FILE__;             \
+        static constexpr const char* kParameters = #__VA_ARGS__;   \
+        static constexpr int kLaneCount = kLanes;                  \
+        using Item = item;                                         \
+        static inline void run(item i, __VA_ARGS__);               \
+    };                                                             \
+    inline constexpr name##_kernel name{};                         \
+    WEFT_REGISTRATION(name)                                        \
     WEFT_INLINE void name##_kernel::run(item i, __VA_ARGS__)

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "kernels/sources.h"
+#include "runtime/error.h"
 #include "runtime/opencl/program.h"
 
 namespace weft {
@@ -17,25 +18,42 @@ using kernels::Parameter;
 /// compiler's messages name the real file.
 class HeaderText {
 public:
-    void add(std::string_view path) {
-        if (!seen_.emplace(path).second) return;
-        const auto files = kernels::source_files();
-        const auto file =
-            std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.path == path; });
-        // Headers of the C++ targets are not embedded, and nothing here needs them.
-        if (file != files.end()) append(*file);
+    void add_kernel(const kernels::KernelInfo& kernel) {
+        const kernels::SourceFile* file = kernels::find_source(kernel.file);
+        if (file == nullptr) {
+            throw Misuse("kernel '" + std::string(kernel.space) + std::string(kernel.name) +
+                         "' has no text for OpenCL: give its header to weft_add_kernels()");
+        }
+        add(*file);
     }
     std::string text() const { return out_.str(); }
 
 private:
+    void add(const kernels::SourceFile& file) {
+        if (seen_.emplace(file.path).second) append(file);
+    }
+
+    void add_included(std::string_view name, const kernels::SourceFile& by) {
+        // Headers of the C++ targets are not embedded, and nothing here needs them.
+        if (name.starts_with("kernels/platform/") || name == "kernels/sources.h") {
+            if (const auto* file = kernels::find_included(name)) add(*file);
+            return;
+        }
+        const kernels::SourceFile* file = kernels::find_included(name);
+        if (file == nullptr) {
+            throw Misuse("'" + std::string(name) + "', which " + std::string(by.path) +
+                         " includes, has no text for OpenCL: give it to weft_add_kernels()");
+        }
+        add(*file);
+    }
+
     void append(const kernels::SourceFile& file) {
         std::istringstream lines{std::string(file.text)};
         std::string line;
         out_ << "#line 1 \"" << file.path << "\"\n";
         for (int number = 1; std::getline(lines, line); ++number) {
-            constexpr std::string_view kInclude = "#include \"";
-            if (line.starts_with(kInclude)) {
-                add(line.substr(kInclude.size(), line.size() - kInclude.size() - 1));
+            if (const std::string_view name = included_by(line); !name.empty()) {
+                add_included(name, file);
                 out_ << "#line " << number + 1 << " \"" << file.path << "\"\n";
             } else {
                 out_ << line << '\n';
@@ -43,12 +61,41 @@ private:
         }
     }
 
+    /// What a line includes, of what is embedded: "...", and <weft/...>.
+    static std::string_view included_by(std::string_view line) {
+        for (const std::string_view begin : {"#include \"", "#include <weft/"}) {
+            if (!line.starts_with(begin)) continue;
+            const std::size_t name = std::string_view("#include \"").size();
+            return line.substr(name, line.find_first_of("\">", name) - name);
+        }
+        return {};
+    }
+
     std::set<std::string, std::less<>> seen_;
     std::ostringstream out_;
 };
 
-const char* type_name(Parameter parameter) {
-    switch (parameter) {
+/// The parts between commas.
+std::vector<std::string_view> split(std::string_view text) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        parts.push_back(text.substr(0, comma));
+        if (comma == std::string_view::npos) return parts;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+/// As it is written: a parameter's declaration without its name, which stands last.
+std::string written_type(const kernels::KernelInfo& kernel, std::size_t parameter) {
+    const std::string_view text = split(kernel.parameter_text).at(parameter);
+    const std::size_t last = text.find_last_not_of(" \n\t");
+    const std::size_t name = text.find_last_of(" *\n\t", last);
+    return std::string(text.substr(0, name + 1)) + ' ';
+}
+
+std::string type_name(const kernels::KernelInfo& kernel, std::size_t parameter) {
+    switch (kernel.parameters[parameter]) {
         case Parameter::kReadFloat:
             return "__global const float* ";
         case Parameter::kReadInt:
@@ -65,6 +112,9 @@ const char* type_name(Parameter parameter) {
             return "float ";
         case Parameter::kInt:
             return "int ";
+        case Parameter::kReadOther:
+        case Parameter::kWriteOther:
+            return written_type(kernel, parameter);
     }
     throw std::logic_error("unknown parameter type");
 }
@@ -78,7 +128,7 @@ std::string parameter_name(std::size_t launch, std::size_t parameter) {
 void declare_parameters(std::ostream& out, const Launch& launch, std::size_t number) {
     for (std::size_t k = 0; k < launch.arguments.size(); ++k) {
         if (launch.arguments[k].run_value != RunValue::kNone) continue;
-        out << type_name(launch.kernel->parameters[k]) << parameter_name(number, k) << ", ";
+        out << type_name(*launch.kernel, k) << parameter_name(number, k) << ", ";
     }
 }
 
@@ -196,7 +246,7 @@ ProgramText program_text(std::span<const TaskBody* const> bodies, EntryStyle sty
     for (const TaskBody* body : bodies) {
         std::vector<std::string>& names = program.entries.emplace_back();
         for (const Launch& launch : body->launches) {
-            headers.add(launch.kernel->file);
+            headers.add_kernel(*launch.kernel);
             if (style == EntryStyle::kPerColour) {
                 names.push_back(entries.add("", per_colour_entry(launch)));
             }

@@ -183,7 +183,7 @@ Completion* OpenClStream::submit(const Submission& s) {
     const auto bound = std::find_if(bodies_.begin(), bodies_.end(),
                                     [&](const BoundBody& b) { return b.body == s.task->body; });
     if (bound == bodies_.end()) {
-        throw std::logic_error("task body '" + s.task->body->name + "' is not part of this stream");
+        throw Misuse("task body '" + s.task->body->name + "' is not part of this stream");
     }
     try {
         std::vector<cl::Event> waits = events_for(target_.context, s.waits);

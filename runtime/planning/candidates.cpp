@@ -62,6 +62,7 @@ Candidates::Candidates(StepMaker& maker, int strip_count, const std::vector<Devi
     : timing_(timing),
       device_count_(static_cast<std::uint32_t>(devices.size())),
       strip_count_(strip_count),
+      can_divide_(maker.can_divide()),
       graphs_(maker, devices.size()) {
     for (const auto& list : teams_among(devices, strip_count)) {
         Team& team =
@@ -92,6 +93,7 @@ DivisionSearch Candidates::search(const Team& team) {
 }
 
 void Candidates::improve_mixtures() {
+    if (!can_divide_) return;
     for (Team& team : teams_) search(team).improve(team.mixture, kDivisionMargin);
 }
 
@@ -100,7 +102,7 @@ void Candidates::improve_placements(bool must) {
         const Prediction& mixture = prediction(team.mixture);
         double best = predict(team.mixture);
         for (const int d : team.devices) best = std::min(best, predict(static_cast<unsigned>(d)));
-        if (must || team.placement.promises(mixture.graph->step(), timing_, best)) {
+        if (must || !can_divide_ || team.placement.promises(mixture.graph->step(), timing_, best)) {
             team.placement.improve(mixture.graph->step(), timing_);
         }
     }
@@ -149,6 +151,7 @@ double Candidates::predict(const Division& division) {
 
 double Candidates::predict(std::uint32_t alternative) {
     if (is_placed(alternative)) return team_of(alternative).placement.predict(timing_);
+    if (!can_divide_ && !is_single(alternative)) return kImpossible;
     if (is_everybody(alternative)) {
         // The mixture itself where all have a share in it: there is nothing else to try.
         const Team& team = team_of(alternative);

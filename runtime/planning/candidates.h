@@ -44,6 +44,7 @@ public:
     bool can_mix() const { return !teams_.empty(); }
 
     /// Whether there are strips enough to place tasks one by one.
+    bool can_divide() const { return can_divide_; }
     bool can_place() const { return can_mix() && teams_.front().placement.possible(); }
 
     /// To be called when costs have changed: predictions from before are void.
@@ -111,6 +112,7 @@ private:
     const TimingModel& timing_;
     std::uint32_t device_count_;
     int strip_count_;
+    bool can_divide_;
     StepGraphs graphs_;
     std::vector<Team> teams_;
     std::map<Division, Prediction> predictions_;

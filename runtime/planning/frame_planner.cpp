@@ -49,6 +49,7 @@ FramePlanner::FramePlanner(StepMaker& maker, int strip_count, const std::vector<
       candidates_(maker, strip_count, devices, feedback_.timing()),
       trials_(candidates_.count(), kProbes) {
     if (kind_ == PlanKind::kPlaced && !candidates_.can_place()) kind_ = PlanKind::kAuto;
+    if (kind_ == PlanKind::kExact && !candidates_.can_divide()) kind_ = PlanKind::kAuto;
     if (!fixed_) return;
     auto& given = fixed_->strips;
     // Who names the first team's shares leaves nothing to the others.

@@ -221,6 +221,7 @@ std::vector<int> Placement::homes() const {
             if (home < 0) home = static_cast<int>(plan_.placements[t].processor);
         }
     }
+    std::ranges::replace(homes, -1, 0);  // nobody works on them
     return homes;
 }
 

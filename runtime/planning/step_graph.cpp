@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/error.h"
+
 namespace weft {
 
 namespace {
@@ -19,11 +21,24 @@ Partition partition_of(std::span<const int> sizes) {
     return partition;
 }
 
+/// What a maker may get wrong.
+void check(const Step& step, std::size_t parts) {
+    if (step.tasks().empty()) throw Misuse("make_step() gave a step without tasks");
+    if (!step.sealed()) throw Misuse("make_step() gave a step that is not sealed");
+    for (const Task& task : step.tasks()) {
+        if (task.region >= 0 && task.region < static_cast<int>(parts)) continue;
+        throw Misuse("make_step() gave task '" + task.body->name + "' to region " +
+                     std::to_string(task.region) + ", and the partition has " +
+                     std::to_string(parts) + " parts");
+    }
+}
+
 }  // namespace
 
 StepGraph::StepGraph(StepMaker& maker, std::span<const int> parts, std::size_t devices)
     : parts_(parts.begin(), parts.end()),
       step_(maker.make_step(partition_of(parts).spread(maker.iterate_count()))) {
+    check(step_, parts_.size());
     graph_.clear(static_cast<scheduler::ProcessorId>(devices));
     const std::vector<double> no_cost(devices, 0.0);
     for (const Task& task : step_.tasks()) {

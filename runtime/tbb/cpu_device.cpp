@@ -34,6 +34,7 @@ struct BoundLaunch {
           segments(launch.segments),
           values(launch.arguments),
           pointers(values.size(), nullptr) {
+        check_variant(launch, lanes);
         find_buffers();
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (values[i].buffer != nullptr) {
@@ -235,7 +236,7 @@ private:
         for (BoundBody& bound : bodies_) {
             if (bound.body == body) return bound;
         }
-        throw std::logic_error("task body '" + body->name + "' is not part of this stream");
+        throw Misuse("task body '" + body->name + "' is not part of this stream");
     }
 
     void work(const std::stop_token& stop) {

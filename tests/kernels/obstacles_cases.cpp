@@ -72,7 +72,7 @@ std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int item
                                                unsigned seed) {
     if (!kernel.starts_with("push_out_of_") && !kernel.starts_with("rub_on_")) return nullptr;
     auto made = std::make_unique<KernelCase>(items, flavour, seed);
-    obstacle_case(*made, kernels::kernel_info(kernel));
+    obstacle_case(*made, kernels::kernel_info(std::string(kernel)));
     return made;
 }
 

@@ -257,7 +257,9 @@ TEST(Single, UsesAnotherProcessorOnlyWhereItMust) {
     EXPECT_EQ(plan.placements[b].processor, 0u);
 }
 
-TEST(Planners, UnknownNameGivesNone) { EXPECT_EQ(make_planner("fastest"), nullptr); }
+TEST(Planners, UnknownNameIsRefused) {
+    EXPECT_THROW(make_planner("fastest"), std::invalid_argument);
+}
 
 TEST(InOrder, KeepsTheCallersOrderOnEveryProcessor) {
     for_random_graphs(12, 2, [](const TaskGraph& graph) {

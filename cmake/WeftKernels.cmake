@@ -1,0 +1,108 @@
+# weft_add_kernels(<target> <headers...> [ROOT <folder>])
+#
+# Compiles the kernels of these headers (WEFT_KERNEL, weft/kernel.h) for all targets, embeds their
+# text for OpenCL, and registers both when the program starts. To be called where the target is
+# made:
+#
+#   add_executable(heat main.cpp)
+#   target_link_libraries(heat PRIVATE weft::runtime)
+#   weft_add_kernels(heat diffuse.h)
+#
+# Give every header of yours that a kernel includes, too. With ROOT, messages of OpenCL compilers
+# name the headers from that folder on.
+#
+# Kernels are compiled with strict arithmetic and -O3, whatever the target's other sources are.
+
+include_guard()
+
+function(weft_add_kernels target)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "ROOT" "")
+  if(NOT TARGET ${target})
+    message(FATAL_ERROR "weft_add_kernels: there is no target '${target}'")
+  endif()
+  if(NOT ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "weft_add_kernels(${target}): name the headers that hold the kernels")
+  endif()
+  _weft_kernel_paths("${ARG_ROOT}" "${ARG_UNPARSED_ARGUMENTS}")
+  string(MAKE_C_IDENTIFIER "weft_kernels_${target}" anchor)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target}.kernels)
+  set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedKernels.cmake)
+
+  # -fno-math-errno: square roots become instructions; it changes no bit of a result.
+  # -Wno-psabi: packs of 8 never cross a file's border, so how they would be passed does not matter.
+  set(strict -O3 -fno-fast-math -ffp-contract=off -fno-math-errno)
+  set(packed ${strict} -fno-trapping-math -Wno-psabi)
+  set(variants scalar packed)
+  _weft_kernel_source(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
+  _weft_kernel_source(packed
+      "#define WEFT_PACKED_TARGET packed\n#define WEFT_PACKED_ID Target::kPacked" "${packed}")
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND variants packed_avx2)
+    _weft_kernel_source(packed_avx2
+        "#define WEFT_PACKED_TARGET packed_avx2\n#define WEFT_PACKED_ID Target::kPackedAvx2"
+        "${packed};-mavx2")
+  endif()
+  _weft_kernel_text()
+
+  # Nothing in a program names these files, so a linker would leave them in a static library.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    set(prefix "$<$<PLATFORM_ID:Darwin>:_>")
+    target_link_options(${target} INTERFACE "LINKER:-u,${prefix}${anchor}")
+  endif()
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  if(NOT target STREQUAL "weft_kernels")
+    target_link_libraries(${target} PRIVATE weft::kernels)
+  endif()
+endfunction()
+
+# names: as messages have them; paths: where they are; includes: lines of C++.
+macro(_weft_kernel_paths root headers)
+  set(names "")
+  set(paths "")
+  set(includes "")
+  foreach(header IN ITEMS ${headers})
+    get_filename_component(path ${header} ABSOLUTE)
+    if(NOT EXISTS ${path})
+      message(FATAL_ERROR "weft_add_kernels(${target}): there is no header ${path}")
+    endif()
+    set(name ${path})
+    if(NOT "${root}" STREQUAL "")
+      file(RELATIVE_PATH name ${root} ${path})
+    endif()
+    list(APPEND names ${name})
+    list(APPEND paths ${path})
+    if(NOT name MATCHES "kernels/platform")
+      string(APPEND includes "#include \"${name}\"\n")
+    endif()
+  endforeach()
+endmacro()
+
+# One source per target of kernels: all of them.
+macro(_weft_kernel_source variant definitions flags)
+  set(file ${folder}/${variant}.cpp)
+  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "// Made by weft_add_kernels().
+${definitions}
+${includes}
+extern \"C\" {
+extern const int ${anchor}_${variant};
+const int ${anchor}_${variant} = 0;
+}
+")
+  target_sources(${target} PRIVATE ${file})
+  set_source_files_properties(${file} TARGET_DIRECTORY ${target}
+                              PROPERTIES COMPILE_OPTIONS "${flags}" SKIP_PRECOMPILE_HEADERS ON
+                                         SKIP_UNITY_BUILD_INCLUSION ON)
+endmacro()
+
+macro(_weft_kernel_text)
+  set(file ${folder}/text.cpp)
+  add_custom_command(
+    OUTPUT ${file}
+    COMMAND ${CMAKE_COMMAND} -D "OUTPUT=${file}" -D "NAMES=${names}" -D "PATHS=${paths}" -D
+            "ANCHOR=${anchor}" -D "VARIANTS=${variants}" -P ${script}
+    DEPENDS ${paths} ${script}
+    COMMENT "Embedding kernels of ${target}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${file})
+endmacro()
