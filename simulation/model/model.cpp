@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "simulation/families/convert.h"
+#include "simulation/model/contact_thickness.h"
 #include "simulation/model/load_paths.h"
 
 namespace weft {
@@ -87,13 +88,20 @@ Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings)
     return scene;
 }
 
+/// The scene with all values that the file leaves out and the meshes say.
+Scene with_values(const Scene& given, const Gathered& all, Warnings& warnings) {
+    Scene scene = with_substeps(given, all, warnings);
+    if (scene.contact) choose_thickness(*scene.contact, all, warnings);
+    return scene;
+}
+
 }  // namespace
 
 Model::Model(const Scene& given, Warnings& warnings)
     : Model(given, gather(given, warnings), warnings) {}
 
 Model::Model(const Scene& given, Gathered all, Warnings& warnings)
-    : scene(with_substeps(given, all, warnings)), h(scene.dt / scene.substeps) {
+    : scene(with_values(given, all, warnings)), h(scene.dt / scene.substeps) {
     bodies = std::move(all.bodies);
     triangles = std::move(all.triangles);
     triangle_body = std::move(all.triangle_body);

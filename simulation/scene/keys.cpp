@@ -107,6 +107,29 @@ const TableKeys& output_table() {
     return table;
 }
 
+const TableKeys& contact_table() {
+    static const TableKeys table{{
+        {.name = "self",
+         .type = Type::kBoolean,
+         .help = "bodies touch themselves, too, not only each other",
+         .fallback = Contact{}.self},
+        {.name = "thickness",
+         .help = "distance of surfaces at which they begin to push each other apart; default: a "
+                 "quarter of the mean edge",
+         .unit = "m",
+         .range = positive_up_to(1e3)},
+        {.name = "friction",
+         .help = "Coulomb coefficient; default: no friction",
+         .range = between(0.0, 100.0)},
+        {.name = "stiffness",
+         .help = "of contacts, in units of what mass, time step and material make stiff in the "
+                 "softest of the vertices that touch",
+         .fallback = Contact{}.stiffness,
+         .range = between(1e-3, 1e3)},
+    }};
+    return table;
+}
+
 TableKeys make_obstacle_table() {
     TableKeys table{
         .keys =
@@ -192,8 +215,8 @@ const TableKeys& scene_keys() {
          .table = &obstacle_table()},
         {.name = "contact",
          .type = Type::kTable,
-         .help = "contact of cloth with itself and other cloth",
-         .later = true},
+         .help = "contact of cloth and solids with each other and with themselves; default: none",
+         .table = &contact_table()},
     }};
     return table;
 }

@@ -126,6 +126,17 @@ SolverSettings read_solver(const Node& table) {
     return solver;
 }
 
+std::optional<Contact> read_contact(const Node& root) {
+    const Node* table = root.find("contact");
+    if (!table) return std::nullopt;
+    Contact contact;
+    contact.self = truth_value(*table, "self");
+    contact.thickness = optional_number(*table, "thickness").value_or(0.0);
+    contact.friction = optional_number(*table, "friction");
+    contact.stiffness = number_value(*table, "stiffness");
+    return contact;
+}
+
 Scene read_document(const Node& root, const std::string& path) {
     Scene scene;
     scene.path = path;
@@ -144,6 +155,7 @@ Scene read_document(const Node& root, const std::string& path) {
                                        [&](const Node& table) { return read_solid(table, path); });
     std::set<std::string> obstacle_names;
     scene.obstacles = read_entries<Obstacle>(root, "obstacle", obstacle_names, read_obstacle);
+    scene.contact = read_contact(root);
     scene.attachments = read_attachments(root, scene);
     scene.seams = read_seams(root, scene);
     if (scene.cloths.empty() && scene.solids.empty()) {

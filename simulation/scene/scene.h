@@ -193,6 +193,17 @@ struct Obstacle {
     Frame frame_at(double time) const { return moved(frame, motion, time); }
 };
 
+/// [contact]: bodies touch each other, and themselves.
+struct Contact {
+    bool self = true;  ///< a body with itself, too
+    /// [m] between the middles of two surfaces: where they begin to push each other apart, > 0;
+    /// 0: chosen by the meshes. In a Model's scene it is always chosen.
+    double thickness = 0.0;
+    std::optional<double> friction;  ///< Coulomb coefficient, > 0
+    /// Of a contact, in units of the least m / h^2 + stiffness at rest of its vertices, > 0.
+    double stiffness = 4.0;
+};
+
 /// [guard]: beyond either bound a state counts as exploded.
 struct Guard {
     double max_speed = 1000.0;  ///< [m/s] of any vertex
@@ -229,6 +240,7 @@ struct Scene {
     std::vector<Attachment> attachments;
     std::vector<Seam> seams;
     std::vector<Obstacle> obstacles;
+    std::optional<Contact> contact;
 
     // Where it came from, for traces and replays.
     std::string path;                    ///< as given; empty for a scene read from a string

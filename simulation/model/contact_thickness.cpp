@@ -1,0 +1,35 @@
+#include "simulation/model/contact_thickness.h"
+
+#include <fmt/format.h>
+
+namespace weft {
+
+namespace {
+
+/// An edge inside a surface counts twice, one at a border once.
+double mean_edge(const Gathered& all) {
+    double sum = 0.0;
+    for (const auto& t : all.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto a = static_cast<std::size_t>(t[k]);
+            const auto b = static_cast<std::size_t>(t[(k + 1) % 3]);
+            sum += length(all.rest[b] - all.rest[a]);
+        }
+    }
+    return sum / static_cast<double>(3 * all.triangles.size());
+}
+
+}  // namespace
+
+void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings) {
+    const double edge = mean_edge(all);
+    if (contact.thickness == 0.0) contact.thickness = 0.25 * edge;
+    if (contact.thickness <= 0.5 * edge) return;
+    warnings.push_back(fmt::format(
+        "contact.thickness = {:.3g} m is more than half of the mean edge ({:.3g} m): what lies "
+        "that near in one surface does not push itself apart; a quarter of the edge is a good "
+        "choice, or a finer mesh",
+        contact.thickness, edge));
+}
+
+}  // namespace weft

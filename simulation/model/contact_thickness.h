@@ -1,0 +1,12 @@
+#pragma once
+
+#include "simulation/model/gathered.h"
+
+namespace weft {
+
+/// Chooses the thickness of contacts where the scene does not say it: a quarter of the mean edge
+/// of all surfaces, so that neighbours in one surface do not count as near. Warns of one that is
+/// more than half of the mean edge.
+void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings);
+
+}  // namespace weft
