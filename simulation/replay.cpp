@@ -31,6 +31,7 @@ SimulationOptions without_planning(const SimulationOptions& options, const RunDe
     own.calibrate = false;
     own.iterates = recorded_iterates(run);
     own.on_trouble = OnTrouble::kReport;  // the run went on, too
+    own.on_crossing = OnCrossing::kWarn;
     return own;
 }
 

@@ -72,6 +72,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       first_substeps_(model_->scene.substeps) {
     std::iota(active_.begin(), active_.end(), 0);
     warn_of_start(*model_, warnings);
+    if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
     open_executor();

@@ -16,6 +16,7 @@
 #include "simulation/planning/plan_kind.h"
 #include "simulation/snapshots.h"
 #include "simulation/solver/solver.h"
+#include "simulation/start_contacts.h"
 
 namespace weft {
 
@@ -47,6 +48,7 @@ struct SimulationOptions {
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
     OnTrouble on_trouble = OnTrouble::kStop;
+    OnCrossing on_crossing = OnCrossing::kStop;
 };
 
 /// What a frame's record holds besides times, makespans and bytes. Each takes time between frames.

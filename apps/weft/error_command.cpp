@@ -119,6 +119,7 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
 void add_error_options(CLI::App& command, ErrorOptions& options) {
     add_scene_options(command, options.run);
     add_device_options(command, options.run);
+    add_crossing_option(command, options.run);
     add_talk_options(command, options.run);
     for (const char* single : {"--device", "--plan", "--solver", "--iterations", "--strips"}) {
         command.remove_option(command.get_option(single));

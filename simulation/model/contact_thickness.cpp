@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace weft {
 
 namespace {
@@ -30,6 +33,11 @@ void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings)
         "that near in one surface does not push itself apart; a quarter of the edge is a good "
         "choice, or a finer mesh",
         contact.thickness, edge));
+}
+
+double contact_floor(double thickness, double reach) {
+    constexpr double kUlp = std::numeric_limits<float>::epsilon();
+    return std::max(0.1 * thickness, 64.0 * kUlp * reach);
 }
 
 }  // namespace weft

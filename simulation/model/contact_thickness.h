@@ -9,4 +9,8 @@ namespace weft {
 /// more than half of the mean edge.
 void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings);
 
+/// The least distance that contact leaves between two surfaces [m]: a tenth of the thickness, but
+/// enough for the rounding of coordinates up to `reach` [m].
+double contact_floor(double thickness, double reach);
+
 }  // namespace weft
