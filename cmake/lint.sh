@@ -51,7 +51,6 @@ simulation/families  kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|b
 simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
 simulation/solver    kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|topology|families|model|solver)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|reference)
-simulation/planning  kernels|scheduler|runtime|simulation/(solver|planning)
 simulation/output    runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps
 TABLE

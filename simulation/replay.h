@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-
-#include "runtime/trace/records.h"
+#include "runtime/planning/recorded_plans.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -25,12 +22,8 @@ public:
     const Simulation& simulation() const { return simulation_; }
 
 private:
-    const Step& step_for(const FrameRecord& recorded);
-    void check(const Step& step, const std::vector<PlanRecord>& tasks, std::uint32_t frame) const;
-
     Simulation simulation_;
-    const RunDescription& recorded_;
-    std::map<std::uint32_t, Step> steps_;  ///< by number of the recorded graph
+    RecordedPlans plans_;
 };
 
 }  // namespace weft

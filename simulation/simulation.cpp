@@ -3,19 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <limits>
-#include <numeric>
 
-#include "runtime/clock.h"
 #include "runtime/cores.h"
 #include "runtime/error.h"
-#include "runtime/executor.h"
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/diagnosis.h"
-#include "simulation/frame_recorder.h"
-#include "simulation/planning/frame_planner.h"
-#include "simulation/planning/saved_costs.h"
 #include "simulation/run_description.h"
 #include "simulation/solver/own_iterates.h"
 #include "simulation/start_checks.h"
@@ -62,21 +55,20 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options, War
 Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> devices,
                        const SimulationOptions& options, Warnings& warnings)
     : options_(options),
-      devices_(std::move(devices)),
-      active_(devices_.size()),
       model_(std::make_shared<Model>(scene, warnings)),
       solver_(make_solver_for(*model_, options)),
-      recorder_(std::make_unique<FrameRecorder>(devices_.size())),
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
-                                     host_threads(devices_))),
+                                     host_threads(devices))),
       first_substeps_(model_->scene.substeps) {
-    std::iota(active_.begin(), active_.end(), 0);
     warn_of_start(*model_, warnings);
     if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
-    open_executor();
-    if (options.calibrate) calibrate(restore_costs(), warnings);
+    run_ = std::make_unique<PlannedExecutor>(
+        *solver_, model_->strips.count(), std::move(devices),
+        PlanningOptions{options.plan, options.division, options.cost_file,
+                        options.device_options.strict_math});
+    if (options.calibrate) calibrate(warnings);
 }
 
 Simulation::~Simulation() = default;
@@ -89,9 +81,9 @@ std::shared_ptr<const SimulationState> Simulation::snapshot() const {
 void Simulation::restore(const SimulationState& state) {
     state.put(*model_, *solver_);
     snapshot_.reset();
-    executor_->host_wrote(*model_->positions);
-    executor_->host_wrote(*model_->velocities);
-    for (BufferStorage* buffer : solver_->state()) executor_->host_wrote(*buffer);
+    run_->executor().host_wrote(*model_->positions);
+    run_->executor().host_wrote(*model_->velocities);
+    for (BufferStorage* buffer : solver_->state()) run_->executor().host_wrote(*buffer);
 }
 
 Checkpoint Simulation::checkpoint() const {
@@ -123,14 +115,9 @@ void Simulation::set_substeps(int substeps) {
         state.velocities[v].w = (*model->velocities)[v].w;  // what damping leaves per substep
     }
     auto solver = make_solver_for(*model, options_);
-    const TimingModel learnt = planner_->timing();
     model_.swap(model);
     solver_.swap(solver);
-    open_executor();  // while those that the old one refers to are there
-    std::vector<int> all(active_.size());
-    std::iota(all.begin(), all.end(), 0);
-    planner_->timing().inherit(learnt, all);
-    planner_->balance_mixture();
+    run_->take_over(*solver_, model_->strips.count());  // while those before are there
     place();
     restore(state);
 }
@@ -148,104 +135,27 @@ void Simulation::start_from(int frame, std::span<const float> positions,
 
 void Simulation::place() {
     model_->place(time());
-    if (executor_) hand_over_placed();
+    if (run_) hand_over_placed();
 }
 
 void Simulation::hand_over_placed() {
-    for (BufferStorage* buffer : model_->placed_buffers()) executor_->host_wrote(*buffer);
+    for (BufferStorage* buffer : model_->placed_buffers()) run_->executor().host_wrote(*buffer);
 }
 
 void Simulation::fetch() {
-    executor_->fetch(*model_->positions);
-    executor_->fetch(*model_->velocities);
-    for (BufferStorage* buffer : solver_->state()) executor_->fetch(*buffer);
+    run_->executor().fetch(*model_->positions);
+    run_->executor().fetch(*model_->velocities);
+    for (BufferStorage* buffer : solver_->state()) run_->executor().fetch(*buffer);
 }
 
-std::vector<Device*> Simulation::active_devices() const {
-    std::vector<Device*> list;
-    for (const int number : active_)
-        list.push_back(devices_[static_cast<std::size_t>(number)].get());
-    return list;
-}
-
-/// An executor and a planner for the devices that are there.
-void Simulation::open_executor() {
-    const auto bodies = solver_->bodies();
-    const double epoch = executor_ ? executor_->epoch() : now();
-    executor_.reset();
-    executor_ = std::make_unique<Executor>(active_devices(), bodies, epoch);
-    const bool all = active_.size() == devices_.size();
-    planner_ =
-        std::make_unique<FramePlanner>(*solver_, model_->strips.count(), active_devices(),
-                                       options_.plan, all ? options_.division : std::nullopt);
-}
-
-bool Simulation::restore_costs() {
-    if (options_.cost_file.empty()) return false;
-    const SavedCosts saved(options_.cost_file);
-    if (!saved.restore(solver_->bodies(), active_devices(), options_.device_options.strict_math,
-                       planner_->timing())) {
-        return false;
-    }
-    planner_->balance_mixture();
-    return true;
-}
-
-void Simulation::save_costs() {
-    constexpr int kEnoughFrames = 5;  // the first ones are no rule
-    if (options_.cost_file.empty() || frame_ < kEnoughFrames) return;
-    look_at_load();
-    // Later frames have overruled what was learnt before.
-    const int lasting = static_cast<int>(scheduler::CostModelSettings().forget_after);
-    SavedCosts saved(options_.cost_file);
-    if (disturbed_frame_ >= 0 && frame_ - disturbed_frame_ <= lasting) return saved.keep();
-    saved.save(solver_->bodies(), active_devices(), options_.device_options.strict_math,
-               planner_->timing());
-}
-
-/// What others take of the cores, more than now and then, is more than a run's own noise.
-void Simulation::look_at_load() {
-    constexpr double kDisturbing = 0.15;
-    if (load_.others_share().value_or(0.0) > kDisturbing) disturbed_frame_ = frame_;
-}
-
-/// Profiles every device on the scene's own tasks; a substep or two each, undone afterwards. The
-/// first round compiles, loads and pages in. Costs that are known from earlier runs are a first
-/// guess: the machine may have been busy then.
-void Simulation::calibrate(bool costs_known, Warnings& warnings) {
+/// A substep or two on every device, undone afterwards.
+void Simulation::calibrate(Warnings& warnings) {
+    const bool costs_known = run_->restore_costs();
     const auto start = snapshot();
     const int instances = std::min(model_->scene.substeps, 2);
-    constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds; ++round) {
-        for (const FramePlan& plan : planner_->calibration()) {
-            const auto before = thread_times();
-            const RunTimes times = executor_->run(*plan.step, plan.plan, instances);
-            const double threads = threads_at_work(before, thread_times());
-            make_room();
-            if (round == kRounds - 1) note_limits(plan, times, threads, warnings);
-            if (round > 0 || !costs_known) planner_->learn(plan, times, instances);
-            restore(*start);
-        }
-    }
+    run_->calibrate(
+        instances, costs_known, [&] { restore(*start); }, warnings);
 }
-
-/// A driver may work with more threads than the part of its device that was asked for has units
-/// (Intel's does).
-void Simulation::note_limits(const FramePlan& plan, const RunTimes& times, double threads,
-                             Warnings& warnings) const {
-    constexpr double kTooMany = 1.5;    // per unit: somebody submits, too
-    constexpr double kShortest = 2e-3;  // [s] below that, submitting is most of it
-    if (std::popcount(plan.devices()) != 1 || times.end - times.start < kShortest) return;
-    const auto number = static_cast<std::size_t>(std::countr_zero(plan.devices()));
-    const DeviceInfo& device = active_devices()[number]->info();
-    if (device.kind != "opencl" || threads < kTooMany * device.units) return;
-    warnings.push_back(fmt::format(
-        "{} was limited to {} compute unit{}, and works with {:.1f} threads: its driver does not "
-        "honour the limit, so it takes the other devices' cores, too",
-        device.name, device.units, device.units == 1 ? "" : "s", threads));
-}
-
-double Simulation::clock() const { return executor_->clock(); }
 
 FrameRecord Simulation::advance(const FrameDetails& details) {
     FrameRecord frame;
@@ -278,23 +188,8 @@ void Simulation::end_part(FrameRecord& frame, double& part) const {
 
 /// The state in the middle of a frame is lost with the device, so the frame begins again.
 void Simulation::go_on_without(const DeviceLost& lost) {
-    const auto place = active_.begin() + static_cast<int>(lost.device);
-    const int number = *place;
-    const std::string name = devices_[static_cast<std::size_t>(number)]->info().name;
-    losses_.push_back({number, frame_, lost.what()});
-    active_.erase(place);
     start_->put(*model_, *solver_);
-    if (active_.empty()) {
-        throw RunError(fmt::format("device {} was lost in frame {}, and there is no other: {}",
-                                   name, frame_, lost.what()));
-    }
-    std::vector<int> kept(active_.size());
-    std::iota(kept.begin(), kept.end(), 0);
-    for (int& k : kept) k += k >= static_cast<int>(lost.device) ? 1 : 0;
-    const TimingModel learnt = planner_->timing();
-    open_executor();
-    planner_->timing().inherit(learnt, kept);
-    planner_->balance_mixture();
+    run_->go_on_without(lost, frame_);
 }
 
 /// All substeps of the frame. It runs again from its start as long as a table was too small for it;
@@ -303,9 +198,9 @@ void Simulation::go_on_without(const DeviceLost& lost) {
 RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
     bool is_swept_anew = false;
     while (true) {
-        RunTimes times = executor_->run(step, plan, model_->scene.substeps);
+        RunTimes times = run_->executor().run(step, plan, model_->scene.substeps);
         fetch();
-        const bool was_cut_short = make_room();
+        const bool was_cut_short = run_->make_room();
         if (!was_cut_short && (is_swept_anew || !model_->outran_obstacles())) return times;
         is_swept_anew = is_swept_anew || !was_cut_short;
         restore(*start_);
@@ -313,26 +208,11 @@ RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
     }
 }
 
-/// Lets tables grow in which rows had no room. Says whether there were any: then what has been
-/// computed is of no use.
-bool Simulation::make_room() {
-    bool grew = false;
-    for (RowTable* table : solver_->tables()) {
-        executor_->fetch(table->needs());
-        if (!table->overflowed()) continue;
-        table->grow();
-        executor_->rebind(table->resized_buffers());
-        for (BufferStorage* buffer : table->written_buffers()) executor_->host_wrote(*buffer);
-        grew = true;
-    }
-    return grew;
-}
-
 /// False: it has to be done again.
 bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& frame) {
     place();
     end_part(frame, frame.place_time);
-    const FramePlan& plan = planner_->next();
+    const FramePlan& plan = run_->next();
     end_part(frame, frame.plan_time);
     const int substeps = model_->scene.substeps;
     const RunTimes times = run_frame(*plan.step, plan.plan);
@@ -340,12 +220,8 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     const bool accepted = accepts(*plan.step, frame);
     end_part(frame, frame.check_time);
     if (!accepted) return false;
-    recorder_->sum_up(plan, times, substeps, active_, frame);
-    if (details.tasks) {
-        recorder_->list(plan, times, planner_->timing().costs(), active_, frame);
-    }
-    planner_->learn(plan, times, substeps);
-    look_at_load();
+    run_->record(plan, times, substeps, details.tasks, frame);
+    run_->learn(plan, times, substeps, frame_);
     end_part(frame, frame.learn_time);
     ++frame_;
     if (details.state_hash) frame.state_hash = hash();
@@ -407,7 +283,7 @@ void Simulation::tell(const Alarm& alarm, const std::string& what) {
     troubles_.push_back({frame_, text, alarm.kind != Alarm::Kind::kDoubt});
 }
 
-RunDescription Simulation::describe() const { return describe_run(*model_, *solver_, devices_); }
+RunDescription Simulation::describe() const { return describe_run(*model_, *solver_, devices()); }
 
 std::vector<float> Simulation::positions() const { return snapshot()->scene_positions(*model_); }
 std::vector<float> Simulation::velocities() const { return snapshot()->scene_velocities(*model_); }

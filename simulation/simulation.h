@@ -9,25 +9,17 @@
 #include <vector>
 
 #include "runtime/device_list.h"
-#include "runtime/load_meter.h"
+#include "runtime/planning/planned_executor.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
-#include "simulation/planning/division.h"
-#include "simulation/planning/plan_kind.h"
 #include "simulation/snapshots.h"
 #include "simulation/solver/solver.h"
 #include "simulation/start_contacts.h"
 
 namespace weft {
 
-class DeviceLost;
-class Executor;
-class FramePlanner;
-struct FramePlan;
-class FrameRecorder;
 class Watch;
 struct Alarm;
-struct RunTimes;
 
 /// What is done about a frame that ends in a state that cannot be.
 enum class OnTrouble {
@@ -57,13 +49,6 @@ struct FrameDetails {
     bool state_hash = false;
 };
 
-/// A device that failed in mid-run and was left out from there on.
-struct LostDevice {
-    int device = 0;  ///< its number in Simulation::devices()
-    int frame = 0;
-    std::string why;
-};
-
 /// A frame whose result is to be doubted, or that was done again with smaller steps.
 struct Trouble {
     int frame = 0;
@@ -91,9 +76,9 @@ public:
     std::shared_ptr<const SimulationState> snapshot() const;
     double time() const { return frame_ * model_->scene.dt; }  ///< simulated so far [s]
     /// Seconds since the start, as records count them.
-    double clock() const;
+    double clock() const { return run_->executor().clock(); }
     /// The devices that failed so far.
-    const std::vector<LostDevice>& losses() const { return losses_; }
+    const std::vector<LostDevice>& losses() const { return run_->losses(); }
     /// What was wrong so far, and is no error by options.on_trouble.
     const std::vector<Trouble>& troubles() const { return troubles_; }
     /// The state between two frames, all of it.
@@ -103,7 +88,7 @@ public:
     void resume(const Checkpoint& checkpoint);
     /// Keeps what was learnt about the devices for later runs, in options.cost_file; not what was
     /// learnt while others kept the cores busy.
-    void save_costs();
+    void save_costs() { run_->save_costs(frame_); }
 
     /// Goes on from another state, at the start of `frame`: xyz of all vertices in scene order [m],
     /// [m/s]. What a solver remembers of earlier substeps is forgotten.
@@ -125,8 +110,8 @@ public:
     /// substeps.
     std::shared_ptr<const Model> shared_model() const { return model_; }
     const Solver& solver() const { return *solver_; }
-    const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
-    const FramePlanner& planner() const { return *planner_; }
+    const std::vector<std::unique_ptr<Device>>& devices() const { return run_->devices(); }
+    const FramePlanner& planner() const { return run_->planner(); }
 
     /// For traces: everything that is known before the first frame but the command line.
     RunDescription describe() const;
@@ -141,17 +126,10 @@ private:
 
     void place();
     void hand_over_placed();
-    void calibrate(bool costs_known, Warnings& warnings);
-    void look_at_load();
-    void note_limits(const FramePlan& plan, const RunTimes& times, double threads,
-                     Warnings& warnings) const;
+    void calibrate(Warnings& warnings);
     void fetch();
-    std::vector<Device*> active_devices() const;
-    void open_executor();
-    bool restore_costs();
     bool advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
-    bool make_room();
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
@@ -161,25 +139,17 @@ private:
     void tell(const Alarm& alarm, const std::string& what);
 
     SimulationOptions options_;
-    std::vector<std::unique_ptr<Device>> devices_;
-    /// Numbers of those that are still there: the executor's and the planner's devices.
-    std::vector<int> active_;
-    std::vector<LostDevice> losses_;
     std::vector<Trouble> troubles_;
     std::shared_ptr<Model> model_;
     std::unique_ptr<Solver> solver_;
-    std::unique_ptr<Executor> executor_;
-    std::unique_ptr<FramePlanner> planner_;
-    std::unique_ptr<FrameRecorder> recorder_;
     std::unique_ptr<Watch> watch_;
+    std::unique_ptr<PlannedExecutor> run_;
     int first_substeps_ = 0;  ///< that the run began with
     mutable Snapshots snapshots_;
     std::shared_ptr<const SimulationState> start_;  ///< of the frame at hand
     /// Of the present state; null: none was asked for yet.
     mutable std::shared_ptr<const SimulationState> snapshot_;
     int frame_ = 0;
-    LoadMeter load_;
-    int disturbed_frame_ = -1;  ///< the last one that others were seen to disturb; -1: none
 };
 
 }  // namespace weft

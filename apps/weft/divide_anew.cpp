@@ -10,9 +10,10 @@
 
 #include "apps/weft/recorded_scene.h"
 #include "runtime/error.h"
+#include "runtime/planning/division_search.h"
+#include "runtime/planning/plan_log.h"
 #include "scheduler/in_order.h"
-#include "simulation/planning/division_search.h"
-#include "simulation/planning/plan_log.h"
+#include "simulation/solver/solver.h"
 
 namespace weft {
 

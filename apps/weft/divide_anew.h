@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "runtime/planning/division.h"
 #include "runtime/trace/recorded_graph.h"
-#include "simulation/planning/division.h"
 
 namespace weft {
 

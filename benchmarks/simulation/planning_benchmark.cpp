@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "runtime/planning/frame_planner.h"
 #include "runtime/tbb/cpu_device.h"
-#include "simulation/planning/frame_planner.h"
 #include "simulation/scene/read_scene.h"
+#include "simulation/solver/solver.h"
 
 // What planning a frame of the shipped scenes takes: two devices that are alike, so that their
 // mixture is divided anew; and two that are good at different kinds of tasks, so that tasks are

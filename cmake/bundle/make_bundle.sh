@@ -134,6 +134,20 @@ set_search_paths() {
   done
 }
 
+# LLVM is compiled without exceptions, and nothing unwinds through it: what its tables for that hold is 3 MB
+# of the archive. So are the old hash tables of its symbols, beside which the loader takes the GNU ones.
+blank_unused_sections() {
+  local file name offset size
+  for file in "$folder"/lib/libLLVM-*.so* "$folder"/lib/libclang-cpp.so*; do
+    readelf --sections --wide "$file" | sed -n 's/^ *\[ *[0-9]*\] *//p' |
+      while read -r name _ _ offset size _; do
+        is_in "$name" ".eh_frame .eh_frame_hdr .hash" || continue
+        dd if=/dev/zero of="$file" bs=64K oflag=seek_bytes seek=$((0x$offset)) iflag=count_bytes count=$((0x$size)) \
+          conv=notrunc status=none
+      done
+  done
+}
+
 # What `-lm -lc -lgcc -lgcc_s` mean on a machine without a compiler: PoCL's programs call the C library
 # that is loaded anyway.
 place_link_libraries() {
@@ -172,6 +186,7 @@ place_pocl
 place_libraries
 replace_unused
 set_search_paths
+blank_unused_sections
 place_link_libraries
 place_data
 place_licenses

@@ -6,7 +6,7 @@
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "simulation/contact/surface_buffers.h"
-#include "simulation/solver/partition.h"
+#include "runtime/planning/partition.h"
 
 namespace weft {
 

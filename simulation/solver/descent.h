@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/planning/regions.h"
 #include "runtime/step.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/free_bodies.h"
-#include "simulation/solver/regions.h"
 
 namespace weft {
 

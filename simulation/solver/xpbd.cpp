@@ -1,7 +1,7 @@
 #include "simulation/solver/xpbd.h"
 
 #include "kernels/motion.h"
-#include "simulation/solver/regions.h"
+#include "runtime/planning/regions.h"
 
 namespace weft {
 

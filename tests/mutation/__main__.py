@@ -27,7 +27,7 @@ GROUPS = {
     "scheduler": ("scheduler/*.cpp",
                   ["task_graph", "cost_model", "plan_adaptations", "planners", "plan_allocations"]),
     "topology": ("simulation/topology/*.cpp", ["topology"]),
-    "planning": ("simulation/planning/*.cpp", ["planning"]),
+    "planning": ("runtime/planning/*.cpp", ["planning"]),
     "runtime": ("runtime/*.cpp", ["runtime", "executor"]),
 }
 MEMORY = 4 << 30  # bytes; a loop without an end may ask for all there is

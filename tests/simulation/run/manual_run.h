@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "runtime/executor.h"
+#include "runtime/planning/division.h"
 #include "simulation/model/model.h"
-#include "simulation/planning/division.h"
 #include "simulation/solver/solver.h"
 
 namespace weft::test {

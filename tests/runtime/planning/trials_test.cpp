@@ -1,0 +1,98 @@
+// Devices that sleep, costs of another hour, and teams that take turns: the machine's times are
+// made up, and free of noise.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/runtime/planning/planned.h"
+
+namespace weft::test {
+namespace {
+
+constexpr double kLatency = 20e-6;
+constexpr int kAcross = 60, kAlong = 100;
+
+double best_of_all(const std::vector<VirtualMachine::Speed>& speeds) {
+    Planned exact(kAcross, kAlong, speeds, kLatency, PlanKind::kExact);
+    Planned single(kAcross, kAlong, speeds, kLatency, PlanKind::kSingle);
+    return std::min(exact.advance(20).measured, single.advance(20).measured);
+}
+
+/// The first frame after a sleep takes several times as long, whatever its plan.
+TEST(PlannerTrials, ADeviceThatSleepsIsJudgedAwake) {
+    for (const double waking : {2.0, 5.0, 20.0}) {
+        const std::vector<VirtualMachine::Speed> speeds{{2e-6, 20e-9}, {2e-6, 20e-9, {}, waking}};
+        Planned p(kAcross, kAlong, speeds, kLatency);
+        const auto frame = p.advance(30);
+        EXPECT_EQ(frame.division.devices().size(), 2U) << waking;
+        EXPECT_LT(frame.measured, 1.05 * best_of_all(speeds)) << waking;
+    }
+}
+
+/// Something was wrong with the mixture for some frames, and the device fell asleep since.
+TEST(PlannerTrials, ADeviceThatFellAsleepIsFoundAgain) {
+    const std::vector<VirtualMachine::Speed> speeds{{2e-6, 20e-9}, {2e-6, 20e-9, {}, 6.0}};
+    Planned p(kAcross, kAlong, speeds, kLatency);
+    const double before = p.advance(10).measured;
+    p.machine.latency = 20.0 * kLatency;
+    ASSERT_EQ(p.advance(20).division.devices().size(), 1U);
+    p.machine.latency = kLatency;
+    EXPECT_LT(p.advance(120).measured, 1.02 * before);
+}
+
+/// All that is remembered says that the second device is slow and far away.
+TEST(PlannerTrials, RememberedCostsAreNoVerdict) {
+    const std::vector<VirtualMachine::Speed> speeds{{2e-6, 20e-9}, {2e-6, 20e-9}};
+    for (const double factor : {1.8, 5.0, 40.0}) {
+        Planned p(
+            kAcross, kAlong, speeds, kLatency, PlanKind::kAuto, {}, std::nullopt,
+            [&](Planned& planned) {
+                TimingModel& timing = planned.planner.timing();
+                for (std::uint32_t kind = 0; kind < timing.costs().kinds(); ++kind) {
+                    timing.costs().restore(kind, 0, {{2e-6, 20e-9}, 0.1, 50});
+                    timing.costs().restore(kind, 1, {{2e-6 * factor, 20e-9 * factor}, 0.1, 50});
+                }
+                timing.set_latency(0, 1, 3e-3);
+                timing.set_latency(1, 0, 3e-3);
+            });
+        EXPECT_LT(p.advance(10).measured, 1.05 * best_of_all(speeds)) << factor;
+    }
+}
+
+/// All devices become slow together right after the start. The third one, which calibration has
+/// seen drowsy only, is the fastest: a trial that had to beat the mixture's forecast would be lost.
+TEST(PlannerTrials, HaveToBeatWhatWasMeasured) {
+    const std::vector<VirtualMachine::Speed> speeds{
+        {2e-6, 20e-9}, {2e-6, 20e-9}, {2e-6, 9e-9, {}, 1.5}};
+    Planned p(kAcross, kAlong, speeds, kLatency, PlanKind::kAuto, {0, 0, 1});
+    for (VirtualMachine::Speed& speed : p.machine.speeds) {
+        speed.fixed *= 4.0;
+        speed.per_item *= 4.0;
+    }
+    p.machine.latency *= 4.0;
+    EXPECT_EQ(p.advance(8).division.devices(), std::vector{2});
+}
+
+/// A third device that has the cores of the other two.
+TEST(PlannerTrials, TeamsTakeTurnsAndTheFasterOneWorks) {
+    for (const double alone : {7e-9, 10e-9, 14e-9}) {
+        const std::vector<VirtualMachine::Speed> speeds{
+            {2e-6, 20e-9}, {2e-6, 20e-9}, {2e-6, alone}};
+        Planned p(kAcross, kAlong, speeds, kLatency, PlanKind::kAuto, {0, 0, 1});
+        const Planned whole(kAcross, kAlong, {{2e-6, alone}}, kLatency);
+        double sum = 0.0;
+        constexpr int kFrames = 100;
+        for (int i = 0; i < kFrames; ++i) {
+            const auto frame = p.advance();
+            const auto devices = frame.division.devices();
+            EXPECT_TRUE(devices == std::vector{2} || std::ranges::count(devices, 2) == 0);
+            if (i >= 20) sum += frame.measured / (kFrames - 20);
+        }
+        EXPECT_LT(sum, 1.03 * whole.ideal() + kSubsteps * 18 * 2e-6) << alone;
+        EXPECT_LT(sum, 1.03 * best_of_all({speeds[0], speeds[1]})) << alone;
+    }
+}
+
+}  // namespace
+}  // namespace weft::test
