@@ -192,6 +192,10 @@ void add_pins(LeftOutList& list, const Model& model) {
         list.add("pins", "nothing has pins");
     }
     if (!model.moving_pins) list.add("moving pins", "no pins have a motion", "move_pins");
+    const auto has_frames = [](const MeshObstacle& obstacle) { return !obstacle.frames.empty(); };
+    if (!any_of(model.scene.mesh_obstacles, has_frames)) {
+        list.add("frames of obstacles", "no obstacle has motion.frames", "move_between");
+    }
 }
 
 void add_damping(LeftOutList& list, const Model& model) {

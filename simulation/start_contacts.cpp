@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "runtime/error.h"
@@ -194,18 +195,44 @@ std::vector<TriangleRange> ranges_of(const Model& model, const StartSurface& sta
     return ranges;
 }
 
+bool is_obstacle(const Model& model, int body) {
+    return model.bodies[static_cast<std::size_t>(body)].kind == "obstacle";
+}
+
 bool is_within(const Bounds& inner, const Bounds& outer) {
     Bounds both = outer;
     both.include(inner);
     return both.low == outer.low && both.high == outer.high;
 }
 
-/// Cloth may be filled: only solids have an inside that belongs to nobody else.
+/// Whether every edge of the triangles [begin, end) has two of them that run through it to and fro.
+bool is_closed(const Model& model, int begin, int end) {
+    std::map<std::array<int, 2>, int> balance;
+    for (int t = begin; t < end; ++t) {
+        const auto& corners = model.triangles[static_cast<std::size_t>(t)];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3];
+            balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    }
+    return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Cloth may be filled. Solids, and obstacles that are closed, have an inside that belongs to
+/// nobody else.
+bool has_inside(const Model& model, std::size_t body, const TriangleRange& range) {
+    if (model.bodies[body].kind == "solid") return true;
+    return model.bodies[body].kind == "obstacle" && is_closed(model, range.begin, range.end);
+}
+
 void find_swallowed(const Model& model, const StartSurface& start, StartContacts& contacts) {
     const std::vector<TriangleRange> ranges = ranges_of(model, start);
-    for (const Piece& piece : pieces_of(model, start)) {
-        for (std::size_t b = 0; b < ranges.size(); ++b) {
-            if (model.bodies[b].kind != "solid" || static_cast<int>(b) == piece.body) continue;
+    const std::vector<Piece> pieces = pieces_of(model, start);
+    for (std::size_t b = 0; b < ranges.size(); ++b) {
+        if (!has_inside(model, b, ranges[b])) continue;
+        for (const Piece& piece : pieces) {
+            // Parts of a figure may reach into each other.
+            if (static_cast<int>(b) == piece.body || is_obstacle(model, piece.body)) continue;
             if (!is_within(piece.box, ranges[b].box)) continue;
             const double times = winding_number(start.surface(), ranges[b].begin, ranges[b].end,
                                                 start.position(piece.vertex));

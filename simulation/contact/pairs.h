@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "runtime/planning/partition.h"
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "simulation/contact/surface_buffers.h"
-#include "runtime/planning/partition.h"
 
 namespace weft {
 

@@ -4,22 +4,25 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace weft {
 
 namespace {
 
-/// An edge inside a surface counts twice, one at a border once.
+/// Of cloths and solids. An edge inside a surface counts twice, one at a border once.
 double mean_edge(const Gathered& all) {
     double sum = 0.0;
-    for (const auto& t : all.triangles) {
+    const std::size_t count =
+        all.triangles.size() - static_cast<std::size_t>(all.obstacle_triangles.count());
+    for (const auto& t : std::span(all.triangles).first(count)) {  // obstacles come last
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = static_cast<std::size_t>(t[k]);
             const auto b = static_cast<std::size_t>(t[(k + 1) % 3]);
             sum += length(all.rest[b] - all.rest[a]);
         }
     }
-    return sum / static_cast<double>(3 * all.triangles.size());
+    return sum / static_cast<double>(3 * count);
 }
 
 }  // namespace

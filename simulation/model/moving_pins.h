@@ -17,6 +17,9 @@ public:
         std::vector<int> vertices;  ///< new vertices, ascending
         std::vector<Vec3> rest;     ///< where they are at time 0
         Motion motion;
+        /// Instead of the motion: [frames][vertices] where they are every frame_time [s].
+        std::vector<std::vector<Vec3>> frames{};
+        double frame_time = 0.0;
     };
     MovingPins(std::vector<Group> groups, const Strips& strips, int substeps);
 
@@ -26,7 +29,8 @@ public:
     double farthest_move(double time, double h) const;
     /// Writes where the pins are at `time` into their places of `positions` (new order).
     void place_at(double time, std::span<Vec3> positions) const;
-    Buffer<float4>& motions() { return motions_; }
+    /// Those that place() writes.
+    void add_placed(std::vector<BufferStorage*>& buffers);
     void add_launches(std::vector<Launch>& launches, Buffer<float4>& positions);
 
 private:
@@ -35,7 +39,10 @@ private:
         Buffer<float4> rest;
         Buffer<int> segment_begin;  ///< [strips + 1]
         Segments segments;
+        /// [2 * vertices] where they are at the frame's start and end; null: no frames
+        std::unique_ptr<Buffer<float4>> ends{};
     };
+    void place_ends(const Group& group, Table& table, double time, double h) const;
     std::vector<Group> groups_;
     std::vector<std::unique_ptr<Table>> tables_;  ///< [group]
     int substeps_;

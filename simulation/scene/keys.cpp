@@ -138,8 +138,7 @@ TableKeys make_obstacle_table() {
                 {.name = "shape",
                  .type = Type::kText,
                  .help = "form of the body",
-                 .required = true,
-                 .later_choices = {"mesh"}},
+                 .required = true},
                 {.name = "friction",
                  .help = "Coulomb coefficient; default: no friction",
                  .range = between(0.0, 100.0)},
@@ -149,6 +148,9 @@ TableKeys make_obstacle_table() {
                  .fallback = 0.0,
                  .range = between(0.0, 1e3)},
                 motion_key("how it moves; default: it rests"),
+                {.name = "parent",
+                 .type = Type::kText,
+                 .help = "an obstacle further up in the file that carries this one along"},
             },
         .switch_key = "shape",
     };
@@ -156,6 +158,8 @@ TableKeys make_obstacle_table() {
         table.keys[1].choices.push_back(shape.name);
         table.variants.push_back({shape.name, shape.keys});
     }
+    table.keys[1].choices.emplace_back("mesh");
+    table.variants.push_back({"mesh", mesh_obstacle_keys()});
     return table;
 }
 

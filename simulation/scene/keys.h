@@ -46,12 +46,11 @@ struct Key {
     std::string help{};
     std::string unit{};
     bool required = false;
-    Default fallback{};                        ///< absent: the thing itself is absent
-    Range range{};                             ///< of numbers
-    std::vector<std::string> choices{};        ///< of texts; empty: any text
-    std::vector<std::string> later_choices{};  ///< known names that this version does not have
-    const TableKeys* table = nullptr;          ///< of Type::kTable
-    bool made_if_absent = false;               ///< a table with defaults for all that it needs
+    Default fallback{};                  ///< absent: the thing itself is absent
+    Range range{};                       ///< of numbers
+    std::vector<std::string> choices{};  ///< of texts; empty: any text
+    const TableKeys* table = nullptr;    ///< of Type::kTable
+    bool made_if_absent = false;         ///< a table with defaults for all that it needs
 };
 
 /// The keys of one table.

@@ -193,6 +193,20 @@ struct Obstacle {
     Frame frame_at(double time) const { return moved(frame, motion, time); }
 };
 
+/// [[obstacle]] of shape "mesh": a surface whose vertices move as they are told, and that cloth and
+/// solids touch by [contact].
+struct MeshObstacle {
+    std::string name;  ///< unique among obstacles, cloths and solids
+    Shape shape;       ///< a grid, a cylinder or an OBJ file
+    Transform transform;
+    std::optional<Motion> motion;
+    /// Instead of a motion: OBJ files of the same vertices, "body_*.obj"; empty: none. The n-th one
+    /// is where they are after n times frame_time, linear between, held behind the last.
+    std::string frames;
+    double frame_time = 0.0;  ///< [s], > 0
+    std::string where;        ///< "file:line:column", for messages
+};
+
 /// [contact]: bodies touch each other, and themselves.
 struct Contact {
     bool self = true;  ///< a body with itself, too
@@ -240,6 +254,7 @@ struct Scene {
     std::vector<Attachment> attachments;
     std::vector<Seam> seams;
     std::vector<Obstacle> obstacles;
+    std::vector<MeshObstacle> mesh_obstacles;  ///< only with contact
     std::optional<Contact> contact;
 
     // Where it came from, for traces and replays.

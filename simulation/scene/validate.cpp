@@ -99,15 +99,7 @@ void check_int32(const Node& node, const Key& key, const std::string& path) {
 void check_text(const Node& node, const Key& key, const std::string& path) {
     const auto* text = std::get_if<std::string>(&node.value);
     if (!text) fail(node, path, expected(key));
-    const auto among = [&](const std::vector<std::string>& list) {
-        return std::find(list.begin(), list.end(), *text) != list.end();
-    };
-    if (among(key.later_choices)) {
-        fail(node, path,
-             fmt::format("not available in this version of weft; available: {}",
-                         fmt::join(key.choices, ", ")));
-    }
-    if (!key.choices.empty() && !among(key.choices)) {
+    if (!key.choices.empty() && std::ranges::count(key.choices, *text) == 0) {
         fail(node, path, "unknown; " + near_miss_or_list(*text, key.choices));
     }
 }
