@@ -115,8 +115,8 @@ WEFT_INLINE real4 gather_corner(WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL c
 /// corners     [3 * face_count] column-major: model vertices
 /// high        [items] as enclose_patches leaves it
 /// quiet       [items] how far vertices may get [m]
-/// tilts       [items] written: xyz = the mean of the normals, of length 1; w = 1 if it is flat and
-///             quiet; else 0
+/// tilts       [items] written: where it is flat and quiet xyz = the mean of the normals, of length
+///             1, and w = 1; else 0
 WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* face_begin,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* high,
             WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts, int face_count) {
@@ -152,6 +152,8 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const i
         }
         if (pass == 0) mean = scale(mean, one / divisor(length3(mean)));
     }
+    const mask is_flat = flat > zero;
+    mean = make3(is_flat ? mean.x : zero, is_flat ? mean.y : zero, is_flat ? mean.z : zero);
     store4(tilts, i, with_w(mean, flat));
 }
 
@@ -166,7 +168,8 @@ WEFT_KERNEL(enclose_primitives, WEFT_GLOBAL const float4* points, WEFT_GLOBAL co
             WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high, float margin, int corner_count,
             int item_count) {
     const whole near = gather_whole(near_counts, address(load_whole(patches, i)));
-    if (any_item(near > splat_whole(0))) {
+    const mask on = near > splat_whole(0);
+    if (any_item(on)) {
         real_box box = empty_box();
         real reach = splat(0.0f);
         for (int k = 0; k < corner_count; ++k) {
@@ -174,8 +177,8 @@ WEFT_KERNEL(enclose_primitives, WEFT_GLOBAL const float4* points, WEFT_GLOBAL co
             box = united(box, box_of(x, splat(margin)));
             reach = larger(x.w, reach);
         }
-        store4(low, i, with_w(box.low, splat(0.0f)));
-        store4(high, i, with_w(box.high, reach));
+        store4_where(on, low, i, with_w(box.low, splat(0.0f)));
+        store4_where(on, high, i, with_w(box.high, reach));
     }
 }
 

@@ -5,29 +5,27 @@
 
 WEFT_KERNELS_BEGIN
 
-/// Whether a patch is in the list of those that touch each item at hand.
-WEFT_INLINE whole is_touching(WEFT_GLOBAL const int* touching, whole begin, whole count,
-                              int patch) {
-    const int longest = largest_whole(count);
-    whole found = splat_whole(0);
-    for (int k = 0; k < longest; ++k) {
-        const mask on = splat_whole(k) < count;
-        const whole other =
-            gather_whole(touching, address(on ? begin + splat_whole(k) : splat_whole(0)));
-        found = both(on, other == splat_whole(patch)) ? splat_whole(1) : found;
-    }
-    return found;
+/// 1 where the faces of a third patch lie as those of the two between which it is.
+WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, whole via, real3 tilt,
+                               real3 other_tilt) {
+    const real4 between = gather4(tilts, address(via));
+    const real half_way = splat(0.5f);
+    const mask smooth =
+        both(dot3(xyz(between), tilt) >= half_way, dot3(xyz(between), other_tilt) >= half_way);
+    return both(smooth, between.w > splat(0.0f)) ? splat_whole(1) : splat_whole(0);
 }
 
 /// For each patch those whose boxes overlap with its own, itself too, ascending. Left out are
-///   what shares a vertex with it (and itself) while both are flat and quiet and face one way: all
-///       normals are within 60 degrees of one direction, so there is no fold yet, and none comes;
+///   what it hangs together with (and itself), by a vertex or by one patch between, while all of
+///       them are flat and quiet and face one way: normals are within 60 degrees of one direction,
+///       so there is no fold yet, and none comes;
 ///   two patches that cannot move;  two of one body, where bodies do not touch themselves.
 /// Boxes are around boxes: roots (one per strip), blocks, groups, patches. begin of a level: where
 /// the children of each box begin in the next one.
 /// low, high     [items] boxes of patches
 /// tilts         [items] as tilt_patches says
-/// touching_begin  [items + 1] where the list of each begins in `touching`
+/// beside_begin  [items + 1] where the list of each begins in `besides`: those that it hangs together
+///               with, ascending, and as its end a number that is larger than any; vias: by which
 /// bodies        [items]
 /// held          [items] 1: it cannot move
 /// rows, counts, needs, others   a table, as in kernels/neighbours.h
@@ -37,11 +35,11 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
             WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
             WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* touching_begin,
-            WEFT_GLOBAL const int* touching, WEFT_GLOBAL const int* bodies,
-            WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, int root_count,
-            int self, int instance) {
+            WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* beside_begin,
+            WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
+            WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+            int item_count, int root_count, int self, int instance) {
     real_box box;
     box.low = xyz(load4(low, i));
     box.high = xyz(load4(high, i));
@@ -49,8 +47,8 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
     const real4 tilt = load4(tilts, i);
     const whole body = load_whole(bodies, i);
     const whole is_held = load_whole(held, i);
-    const whole list = load_whole(touching_begin, i);
-    const whole list_length = load_whole(touching_begin, column(i, 1, 1)) - list;
+    whole cursor = load_whole(beside_begin, i);
+    whole beside = gather_whole(besides, address(cursor));
     open_rows row = open_rows_of(rows, i, item_count);
     for (int r = 0; r < root_count; ++r) {
         if (!meets(all, root_low[r], root_high[r])) continue;
@@ -73,8 +71,15 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
                     const mask smooth = both(dot3(xyz(tilt), way) >= splat(0.5f),
                                              tilt.w * splat(p_tilt.w) > splat(0.0f));
                     if (any_item(both(on, smooth))) {
-                        const whole touches = is_touching(touching, list, list_length, p);
-                        const whole skipped = smooth ? touches : splat_whole(0);
+                        const whole number = splat_whole(p);
+                        while (any_item(beside < number)) {
+                            cursor = beside < number ? cursor + splat_whole(1) : cursor;
+                            beside = gather_whole(besides, address(cursor));
+                        }
+                        const whole by = gather_whole(vias, address(cursor));
+                        const whole between = is_smooth_by(tilts, by, xyz(tilt), way);
+                        const whole skipped =
+                            both(smooth, beside == number) ? between : splat_whole(0);
                         on = both(on, skipped == splat_whole(0));
                     }
                     row = with_entry(row, on, others, splat_whole(p));

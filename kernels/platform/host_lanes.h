@@ -15,6 +15,12 @@ WEFT_INLINE auto lane_of(const Pack& pack, int lane) {
     return pack[lane];
 }
 
+WEFT_INLINE bool any_item(mask m) {
+    typedef long long halves __attribute__((vector_size(32)));
+    const halves h = reinterpret_cast<halves>(m);
+    return (h[0] | h[1] | h[2] | h[3]) != 0;
+}
+
 WEFT_INLINE whole splat_whole(int n) { return whole{} + n; }
 WEFT_INLINE whole item_numbers(item i) { return lane_indices(i); }
 
@@ -47,6 +53,7 @@ WEFT_INLINE Value lane_of(Value value, int) {
     return value;
 }
 
+WEFT_INLINE bool any_item(mask m) { return m; }
 WEFT_INLINE whole splat_whole(int n) { return n; }
 WEFT_INLINE whole item_numbers(item i) { return i.first; }
 WEFT_INLINE real gather(const float* p, integer k) { return p[k]; }
@@ -77,12 +84,6 @@ WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
         p[lane_of(k, lane)] = {lane_of(v.x, lane), lane_of(v.y, lane), lane_of(v.z, lane),
                                lane_of(v.w, lane)};
     }
-}
-
-WEFT_INLINE bool any_item(mask m) {
-    bool any = false;
-    for (int lane = 0; lane < kLanes; ++lane) any = any || lane_of(m, lane);
-    return any;
 }
 
 WEFT_INLINE int largest_whole(whole w) {

@@ -57,6 +57,7 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
     : surface_(std::move(surface)),
       s_(surface_, rest),
       settings_(settings),
+      halo_(0.5f * settings.thickness),
       anchors_(anchors),
       strips_(strips),
       points_("contact.points", size_of(s_.vertices.items)),
@@ -82,7 +83,7 @@ void ContactPairs::make_boxes_body(int kind) {
         return launch_on(kernels::enclose_boxes, level.items, level.children, low, high, level.low,
                          level.high);
     };
-    const float margin = 0.5f * settings_.thickness;
+    const float margin = 0.5f * halo_;
     boxes_ = {
         "boxes",
         kind,
@@ -97,14 +98,14 @@ void ContactPairs::make_boxes_body(int kind) {
 
 void ContactPairs::make_near_body(int kind) {
     RowTable& table = near_.table;
-    const float margin = 0.5f * settings_.thickness;
+    const float margin = 0.5f * halo_;
     near_task_ = {
         "near",
         kind,
         {launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
                    s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
                    s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
-                   tilts_, s_.touching.begin, s_.touching.items, s_.bodies, s_.held, table.rows(),
+                   tilts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held, table.rows(),
                    table.counts(), table.needs(), near_.others, surface_.patch_count(),
                    surface_.strip_count(), settings_.self ? 1 : 0, kInstance),
          launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
@@ -120,20 +121,21 @@ void ContactPairs::make_pairs_body(int kind) {
         "pairs",
         kind,
         {launch_on(kernels::find_triangles, s_.vertices.items, points_, s_.vertices.patches,
-                   near.rows(), near.counts(), near_.others, s_.triangles.begin, s_.corners,
-                   triangle_low_, triangle_high_, s_.beyond, s_.owned, s_.ring.begin, s_.ring.items,
-                   vt_.table.rows(), vt_.table.counts(), vt_.table.needs(), vt_.others,
-                   surface_.vertex_count(), surface_.triangle_count(), settings_.thickness,
-                   settings_.least, kInstance),
+                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                   s_.triangles.begin, s_.corners, triangle_low_, triangle_high_, s_.beyond,
+                   s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
+                   vt_.table.needs(), vt_.others, surface_.vertex_count(),
+                   surface_.triangle_count(), halo_, settings_.least, kInstance),
          launch_on(kernels::find_vertices, s_.triangles.items, points_, s_.triangles.patches,
-                   near.rows(), near.counts(), near_.others, s_.vertices.begin, s_.corners,
-                   triangle_low_, triangle_high_, s_.beyond, s_.owned, s_.ring.begin, s_.ring.items,
-                   tv_.table.rows(), tv_.table.counts(), tv_.table.needs(), tv_.others,
-                   surface_.triangle_count(), settings_.thickness, settings_.least, kInstance),
+                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                   s_.vertices.begin, s_.corners, triangle_low_, triangle_high_, s_.beyond,
+                   s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(), tv_.table.counts(),
+                   tv_.table.needs(), tv_.others, surface_.triangle_count(), halo_, settings_.least,
+                   kInstance),
          launch_on(kernels::find_edges, s_.edges.items, points_, s_.edges.patches, near.rows(),
-                   near.counts(), near_.others, s_.edges.begin, s_.ends, edge_low_, edge_high_,
-                   ee_.table.rows(), ee_.table.counts(), ee_.table.needs(), ee_.others,
-                   surface_.edge_count(), settings_.thickness, settings_.least, kInstance)}};
+                   near.counts(), near_.others, patch_low_, patch_high_, s_.edges.begin, s_.ends,
+                   edge_low_, edge_high_, ee_.table.rows(), ee_.table.counts(), ee_.table.needs(),
+                   ee_.others, surface_.edge_count(), halo_, settings_.least, kInstance)}};
 }
 
 /// The triangles of a strip reach into the next one.
@@ -173,6 +175,8 @@ void ContactPairs::add_near(Step& step, const Part& part, int region) {
 void ContactPairs::add_pairs(Step& step, const Part& part, int region) {
     const auto [first, last] = range(s_.patches, part.begin, part.end);
     auto adding = step.add(pairs_, 0, part.begin, part.end, region);
+    reads_all(adding, patch_low_, s_.patches);
+    reads_all(adding, patch_high_, s_.patches);
     reads_all(adding, points_, s_.vertices.items);
     reads_all(adding, triangle_low_, s_.triangles.items);
     reads_all(adding, triangle_high_, s_.triangles.items);

@@ -38,7 +38,8 @@ public:
 
     /// rest        [model vertices] [m] as the surface was made with
     /// anchors     [model vertices] xyz [m], w = how far from there the vertex may get in this
-    ///             substep [m]; somebody else's task writes them, before `boxes`
+    ///             substep, at least a quarter of the thickness, so that whatever is nearer than
+    ///             the thickness is found [m]; somebody else's task writes them, before `boxes`
     /// strips      the model's vertices, as the surface was made with
     /// first_kind  the kinds of the tasks are this and the two behind it
     ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
@@ -69,6 +70,7 @@ private:
     Surface surface_;
     SurfaceBuffers s_;
     PairSettings settings_;
+    float halo_;  ///< half of the thickness
     Buffer<float4>& anchors_;
     Segments strips_;
     Buffer<float4> points_, tilts_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -32,16 +33,16 @@ int first_half(int count) {
     return std::max(unit, (count / 2 + unit / 2) / unit * unit);
 }
 
-/// Puts them into the order of patches: cut in half along the widest axis until what is left is
-/// one patch.
+/// Puts them into the order of patches: cut in half along the widest axis, down to two vertices, so
+/// that packs of what is in a patch are compact, too.
 void bisect(std::span<int> vertices, const std::vector<Vec3>& rest) {
     const int count = static_cast<int>(vertices.size());
-    if (count <= Surface::kPatchVertices) {
+    if (count <= 2) {
         std::ranges::sort(vertices);
         return;
     }
     const int axis = widest_axis(vertices, rest);
-    const int half = first_half(count);
+    const int half = count <= Surface::kPatchVertices ? count / 2 : first_half(count);
     std::ranges::nth_element(vertices, vertices.begin() + half, {}, [&](int v) {
         return std::pair(along(rest[static_cast<std::size_t>(v)], axis), v);
     });
@@ -66,7 +67,7 @@ public:
         find_shared_features();
         find_faces();
         find_hulls();
-        find_touching();
+        find_beside();
         mark_held();
         return std::move(s_);
     }
@@ -294,21 +295,52 @@ private:
         }
     }
 
-    void find_touching() {
+    /// Patches with a vertex in common, itself too, ascending.
+    std::vector<std::vector<int>> touching() const {
         std::vector<std::vector<int>> at(static_cast<std::size_t>(s_.vertex_count()));
         for (int p = 0; p < s_.patch_count(); ++p) {
             for (const int v : s_.hulls[p]) at[static_cast<std::size_t>(v)].push_back(p);
         }
+        std::vector<std::vector<int>> touching;
         for (int p = 0; p < s_.patch_count(); ++p) {
-            std::vector<int> others;
+            std::vector<int>& others = touching.emplace_back();
             for (const int v : s_.hulls[p]) {
                 const auto& row = at[static_cast<std::size_t>(v)];
                 others.insert(others.end(), row.begin(), row.end());
             }
             std::ranges::sort(others);
             others.erase(std::ranges::unique(others).begin(), others.end());
-            s_.touching.items.insert(s_.touching.items.end(), others.begin(), others.end());
-            s_.touching.close();
+        }
+        return touching;
+    }
+
+    /// Whether one of the patch's faces has an edge that no other triangle has, or many.
+    bool is_at_border(int patch) const {
+        return std::ranges::any_of(s_.faces[patch], [&](int t) {
+            return std::ranges::any_of(s_.beyond[static_cast<std::size_t>(t)],
+                                       [](int vertex) { return vertex < 0; });
+        });
+    }
+
+    void find_beside() {
+        const auto touching = this->touching();
+        std::vector<char> inside;
+        for (int p = 0; p < s_.patch_count(); ++p) inside.push_back(!is_at_border(p));
+        const auto is_inside = [&](int p) { return inside[static_cast<std::size_t>(p)] != 0; };
+        for (int p = 0; p < s_.patch_count(); ++p) {
+            std::map<int, int> between;
+            for (const int q : touching[static_cast<std::size_t>(p)]) between[q] = std::min(p, q);
+            for (const int via : touching[static_cast<std::size_t>(p)]) {
+                if (!is_inside(p) || !is_inside(via)) continue;
+                for (const int q : touching[static_cast<std::size_t>(via)]) {
+                    if (is_inside(q)) between.try_emplace(q, via);
+                }
+            }
+            for (const auto& [q, via] : between) {
+                s_.beside.items.push_back(q);
+                s_.between.push_back(via);
+            }
+            s_.beside.close();
         }
     }
 

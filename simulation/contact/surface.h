@@ -48,7 +48,11 @@ struct Surface {
     std::vector<int> patch_vertices, patch_triangles, patch_edges;
     std::vector<int> patch_body;   ///< [patches]
     std::vector<char> patch_held;  ///< [patches] whether nothing of it can be moved
-    Lists touching;  ///< patches that share a vertex with a patch, ascending, itself too
+    /// Patches that a patch hangs together with, itself too: with a vertex in common; or with one
+    /// patch between (and none of the three at a border, so that there is no slit between them).
+    /// Ascending.
+    Lists beside;
+    std::vector<int> between;  ///< [entries of beside] the patch between; one of the two if none is
     /// Of a patch: its triangles, and one each of the vertices and edges that are in none of them:
     /// so where all faces are flat, all of it is.
     Lists faces;

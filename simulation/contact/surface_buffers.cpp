@@ -93,6 +93,28 @@ std::vector<std::array<int, 3>> corners_of_faces(const Surface& surface) {
     return corners;
 }
 
+Lists beside_of(const Surface& surface) {
+    Lists lists;
+    for (int p = 0; p < surface.patch_count(); ++p) {
+        const auto list = surface.beside[p];
+        lists.items.insert(lists.items.end(), list.begin(), list.end());
+        lists.items.push_back(std::numeric_limits<int>::max());
+        lists.close();
+    }
+    return lists;
+}
+
+std::vector<int> vias_of(const Surface& surface) {
+    std::vector<int> vias;
+    for (std::size_t p = 0; p < surface.patch_body.size(); ++p) {
+        const auto first = surface.between.begin();
+        vias.insert(vias.end(), first + surface.beside.begin[p],
+                    first + surface.beside.begin[p + 1]);
+        vias.push_back(0);
+    }
+    return vias;
+}
+
 double least_height(const std::array<int, 3>& corners, const Surface& surface,
                     const std::vector<Vec3>& rest) {
     std::array<Vec3, 3> x;
@@ -146,7 +168,9 @@ SurfaceBuffers::SurfaceBuffers(const Surface& s, const std::vector<Vec3>& rest)
       face_begin("faces.begin", s.faces.begin),
       face_corners("faces.corners", in_model(column_major(corners_of_faces(s)), s)),
       hulls("hulls", {s.hulls.begin, in_model(s.hulls.items, s)}),
-      touching("touching", s.touching),
+      beside_begin("beside.begin", beside_of(s).begin),
+      besides("besides", beside_of(s).items),
+      vias("vias", vias_of(s)),
       bodies("bodies", s.patch_body),
       held("held", {s.patch_held.begin(), s.patch_held.end()}),
       quiet("contact.quiet", std::max(s.patch_body.size(), std::size_t{1})),

@@ -56,7 +56,9 @@ struct SurfaceBuffers {
     Ints face_begin;      ///< [patches + 1] Surface::faces
     Ints face_corners;    ///< [3 * faces] the model's vertices
     ListsOnDevice hulls;  ///< the model's vertices
-    ListsOnDevice touching;
+    /// Surface::beside; each list ends with a number that is larger than any, and `vias` has which
+    /// patch is between.
+    Ints beside_begin, besides, vias;
     Ints bodies, held;  ///< [patches]
     Buffer<float>
         quiet;  ///< [patches] how far vertices may get before a triangle could turn over [m]

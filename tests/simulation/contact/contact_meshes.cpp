@@ -117,7 +117,7 @@ std::vector<ContactMesh> contact_meshes() {
     std::vector<ContactMesh> all;
     all.push_back(stack(3, 9, 0.2f, 0.3f, 0.1f));
     // Exactly above each other: parallel edges, vertices above vertices.
-    all.push_back(sheets("aligned", 2, 8, 8, 0.3f, 0.05f, [](int sheet, int column, int row) {
+    all.push_back(sheets("aligned", 2, 8, 8, 0.3f, 0.1f, [](int sheet, int column, int row) {
         return Vec3{column + 0.0, 0.25 * sheet, row + 0.0};
     }));
     // Folded three times, the layers a fifth of an edge apart.

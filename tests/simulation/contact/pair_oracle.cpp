@@ -97,13 +97,26 @@ Verdict PairOracle::near(int p, int q) const {
     if (surface_.patch_held[index(p)] != 0 && surface_.patch_held[index(q)] != 0) {
         return Verdict::kNone;
     }
-    const auto list = surface_.touching[p];
-    if (std::ranges::find(list, q) == list.end()) return Verdict::kPair;
-    const Patch& a = patches_[index(p)];
-    const Patch& b = patches_[index(q)];
-    const double spare = dot(a.mean, b.mean) - 0.5;
-    if (a.near_limit || b.near_limit || std::abs(spare) < kRounding) return Verdict::kEither;
-    return a.flat && b.flat && spare > 0.0 ? Verdict::kNone : Verdict::kPair;
+    const auto list = surface_.beside[p];
+    const auto found = std::ranges::find(list, q);
+    if (found == list.end()) return Verdict::kPair;
+    const auto entry = surface_.beside.begin[index(p)] + (found - list.begin());
+    bool flat = true;
+    bool near_limit = false;
+    const std::array<int, 3> all{p, q, surface_.between[static_cast<std::size_t>(entry)]};
+    for (const int one : all) {
+        const Patch& a = patches_[index(one)];
+        near_limit = near_limit || a.near_limit;
+        flat = flat && a.flat;
+        for (const int other : all) {
+            const double spare =
+                one == other ? 1.0 : dot(a.mean, patches_[index(other)].mean) - 0.5;
+            near_limit = near_limit || std::abs(spare) < kRounding;
+            flat = flat && spare > 0.0;
+        }
+    }
+    if (near_limit) return Verdict::kEither;
+    return flat ? Verdict::kNone : Verdict::kPair;
 }
 
 /// In single precision: so it is defined.
@@ -115,7 +128,7 @@ bool PairOracle::boxes_meet(const A& a, const B& b) const {
         for (const int v : vertices) {
             const float4& x = mesh_.anchors[index(surface_.vertices[index(v)])];
             const float c = axis == 0 ? x.x : axis == 1 ? x.y : x.z;
-            const float q = x.w + 0.5f * settings_.thickness;
+            const float q = x.w + 0.25f * settings_.thickness;
             low = std::min(low, c - q);
             high = std::max(high, c + q);
         }
@@ -185,7 +198,7 @@ PairOracle::Distance PairOracle::between(int edge, int other) const {
 
 Verdict PairOracle::verdict(double d, double reaches, Verdict pushes) const {
     const double to_meet = reaches + static_cast<double>(settings_.least) - d;
-    const double to_push = reaches + static_cast<double>(settings_.thickness) - d;
+    const double to_push = reaches + 0.5 * static_cast<double>(settings_.thickness) - d;
     if (to_push < -kRounding) return Verdict::kNone;
     if (std::abs(to_push) < kRounding || std::abs(to_meet) < kRounding) return Verdict::kEither;
     if (to_meet > 0.0) {

@@ -188,7 +188,7 @@ TEST_P(ContactPairsOf, AreWhatBruteForceFinds) {
     if (mesh_.name == "flat") {
         const Rows near = run.near();
         for (int p = 0; p < s.patch_count(); ++p) {
-            const auto beside = s.touching[p];
+            const auto beside = s.beside[p];
             for (const int q : near[static_cast<std::size_t>(p)]) {
                 EXPECT_EQ(std::ranges::find(beside, q), beside.end()) << p << " and " << q;
             }

@@ -131,21 +131,31 @@ TEST_P(SurfaceOf, FacesOfAPatchCoverItsVerticesAndEdges) {
     }
 }
 
-TEST_P(SurfaceOf, PatchesThatShareAVertexAreListed) {
-    const auto hull = [&](int p) {
-        const auto list = s_.hulls[p];
-        return std::set(list.begin(), list.end());
+TEST_P(SurfaceOf, PatchesThatHangTogetherAreListed) {
+    const auto touch = [&](int p, int q) {
+        const auto list = s_.hulls[q];
+        const std::set other(list.begin(), list.end());
+        return std::ranges::any_of(s_.hulls[p], [&](int v) { return other.contains(v); });
     };
     for (int p = 0; p < s_.patch_count(); ++p) {
-        std::vector<int> expected;
+        const auto list = s_.beside[p];
+        EXPECT_TRUE(std::ranges::is_sorted(list));
         for (int q = 0; q < s_.patch_count(); ++q) {
-            const auto other = hull(q);
-            if (std::ranges::any_of(hull(p), [&](int v) { return other.contains(v); })) {
-                expected.push_back(q);
-            }
+            const auto found = std::ranges::find(list, q);
+            EXPECT_TRUE(!touch(p, q) || found != list.end()) << p << " and " << q;
+            if (found == list.end()) continue;
+            const auto entry =
+                s_.beside.begin[static_cast<std::size_t>(p)] + (found - list.begin());
+            const int via = s_.between[static_cast<std::size_t>(entry)];
+            EXPECT_TRUE(touch(p, via) && touch(q, via));
+            EXPECT_EQ(touch(p, q), via == p || via == q) << p << " and " << q;
+            const auto back = s_.beside[q];
+            const auto same = std::ranges::find(back, p);
+            ASSERT_NE(same, back.end());
+            EXPECT_EQ(s_.between[static_cast<std::size_t>(
+                          s_.beside.begin[static_cast<std::size_t>(q)] + (same - back.begin()))],
+                      via);
         }
-        const auto list = s_.touching[p];
-        EXPECT_EQ(std::vector(list.begin(), list.end()), expected);
     }
 }
 
