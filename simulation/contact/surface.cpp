@@ -331,9 +331,9 @@ private:
             std::map<int, int> between;
             for (const int q : touching[static_cast<std::size_t>(p)]) between[q] = std::min(p, q);
             for (const int via : touching[static_cast<std::size_t>(p)]) {
-                if (!is_inside(p) || !is_inside(via)) continue;
+                if (!is_inside(via)) continue;
                 for (const int q : touching[static_cast<std::size_t>(via)]) {
-                    if (is_inside(q)) between.try_emplace(q, via);
+                    if (is_inside(p) || is_inside(q)) between.try_emplace(q, via);
                 }
             }
             for (const auto& [q, via] : between) {

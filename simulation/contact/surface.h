@@ -49,8 +49,8 @@ struct Surface {
     std::vector<int> patch_body;   ///< [patches]
     std::vector<char> patch_held;  ///< [patches] whether nothing of it can be moved
     /// Patches that a patch hangs together with, itself too: with a vertex in common; or with one
-    /// patch between (and none of the three at a border, so that there is no slit between them).
-    /// Ascending.
+    /// patch between that is not at a border, and one of the two is not, either: so there is no
+    /// slit between them. Ascending.
     Lists beside;
     std::vector<int> between;  ///< [entries of beside] the patch between; one of the two if none is
     /// Of a patch: its triangles, and one each of the vertices and edges that are in none of them:
