@@ -36,9 +36,10 @@ def simulate(folder, text, *arguments):
 @pytest.mark.parametrize("text", [text for _, text in CASES], ids=[name for name, _ in CASES])
 def test_nothing_passes(tmp_path, text):
     run, _ = simulate(tmp_path, text)
-    assert oracle.frames_that_cross(run) == []
+    crossing = oracle.frames_that_cross(run)
+    assert crossing == [], oracle.crossing_pairs(run, run.positions[crossing[0]])
     assert oracle.steps_that_collide(run) == []
-    if "sheet1" in text:
+    if "sheet9" in text:  # a stack stays one
         assert oracle.are_in_order(run)
 
 
