@@ -68,10 +68,10 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
       triangle_high_("contact.triangles.high", size_of(s_.triangles.items)),
       edge_low_("contact.edges.low", size_of(s_.edges.items)),
       edge_high_("contact.edges.high", size_of(s_.edges.items)),
-      near_("contact.near", s_.patches.segments, settings.room),
-      vt_("contact.vt", s_.vertices.items.segments, settings.room),
+      near_("contact.near", s_.patches.segments, 8 * settings.room),
+      vt_("contact.vt", s_.vertices.items.segments, 2 * settings.room),
       tv_("contact.tv", s_.triangles.items.segments, settings.room),
-      ee_("contact.ee", s_.edges.items.segments, settings.room) {
+      ee_("contact.ee", s_.edges.items.segments, 2 * settings.room) {
     make_boxes_body(first_kind);
     make_near_body(first_kind + 1);
     make_pairs_body(first_kind + 2);
