@@ -43,6 +43,15 @@ def test_nothing_passes(tmp_path, text):
         assert oracle.are_in_order(run)
 
 
+@pytest.mark.parametrize("name", scenes.TOO_FAST)
+def test_what_is_led_too_fast_is_told(tmp_path, name):
+    run, summary = simulate(tmp_path, scenes.TOO_FAST[name])
+    first = min(oracle.frames_that_cross(run) + oracle.steps_that_collide(run), default=None)
+    told = [int(text.split()[1].rstrip(":")) for text in summary["warnings"]
+            if text.startswith("frame ") and "contact" in text]
+    assert first is None or (told and min(told) <= first), summary["warnings"]
+
+
 def test_the_oracle_sees_what_passes(tmp_path):
     """The same without contact."""
     text = scenes.SHORT["fast_sheets"]
