@@ -32,9 +32,8 @@ void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings)
     if (contact.thickness == 0.0) contact.thickness = 0.25 * edge;
     if (contact.thickness <= 0.5 * edge) return;
     warnings.push_back(fmt::format(
-        "contact.thickness = {:.3g} m is more than half of the mean edge ({:.3g} m): what lies "
-        "that near in one surface does not push itself apart; a quarter of the edge is a good "
-        "choice, or a finer mesh",
+        "contact.thickness = {:.3g} m is more than half of the mean edge ({:.3g} m): a surface may "
+        "push its own neighbours; a quarter of the edge is a good choice, or a finer mesh",
         contact.thickness, edge));
 }
 
