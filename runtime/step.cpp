@@ -117,6 +117,11 @@ Step::Adding& Step::Adding::reads(BufferStorage& buffer, const Segments& strips)
     return access({&buffer, &strips, task.first_strip, task.end_strip, false});
 }
 
+Step::Adding& Step::Adding::reads(BufferStorage& buffer, const Segments& strips, int begin,
+                                  int end) {
+    return access({&buffer, &strips, begin, end, false});
+}
+
 Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strips) {
     const Task& task = step_.tasks_[static_cast<std::size_t>(task_)];
     return access({&buffer, &strips, task.first_strip, task.end_strip, true});

@@ -45,6 +45,8 @@ public:
         Adding(Step& step, int task) : step_(step), task_(task) {}
         Adding& reads(BufferStorage& buffer, int begin, int end);
         Adding& reads(BufferStorage& buffer, const Segments& strips);
+        /// Of other strips than the task's own.
+        Adding& reads(BufferStorage& buffer, const Segments& strips, int begin, int end);
         Adding& updates(BufferStorage& buffer, int begin, int end);
         Adding& updates(BufferStorage& buffer, const Segments& strips);
 

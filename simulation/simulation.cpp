@@ -8,6 +8,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
+#include "simulation/contact/response.h"
 #include "simulation/diagnosis.h"
 #include "simulation/run_description.h"
 #include "simulation/solver/own_iterates.h"
@@ -244,9 +245,22 @@ bool Simulation::accepts(const Step& step, FrameRecord& frame) {
     const Watch::Look look = watch_->look(*model_, *start_, time(), end);
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
     watch_->accept(look, look.alarm.has_value());
+    look_at_contact();
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     return true;
+}
+
+/// What is not guaranteed is told, where it happens.
+void Simulation::look_at_contact() {
+    ContactResponse* contact = solver_->contact();
+    if (contact == nullptr) return;
+    run_->executor().fetch(contact->cut_counts());
+    run_->executor().fetch(contact->nearest());
+    const std::string what = contact->trouble();
+    if (what.empty()) return;
+    tell({Alarm::Kind::kDoubt, what, {}},
+         "surfaces may pass through each other there: more substeps may help (docs/contact.md)");
 }
 
 bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {

@@ -134,6 +134,7 @@ private:
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
     bool accepts(const Step& step, FrameRecord& frame);
+    void look_at_contact();
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
     void tell(const Alarm& alarm, const std::string& what);

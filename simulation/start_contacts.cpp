@@ -57,7 +57,7 @@ public:
         }
     }
 
-    Surface surface() const { return {positions_, model_.triangles}; }
+    PlainSurface surface() const { return {positions_, model_.triangles}; }
     Corners corners(int t) const {
         return {surface().corner(t, 0), surface().corner(t, 1), surface().corner(t, 2)};
     }
@@ -300,7 +300,7 @@ std::vector<std::string> what_crosses(const StartContacts& contacts, const Words
 
 StartContacts find_start_contacts(const Model& model, double floor) {
     const StartSurface start(model);
-    const Surface surface = start.surface();
+    const PlainSurface surface = start.surface();
     const BoxTree tree = surface.tree();
     StartContacts contacts;
     contacts.crossings =

@@ -77,13 +77,16 @@ WEFT_INLINE void scatter_whole_where(mask m, int* p, integer k, whole v) {
     scatter_lanes(m, p, k, v);
 }
 
-WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
-    const integer k = address(item_numbers(i));
+WEFT_INLINE void scatter4_where(mask m, float4* p, integer k, real4 v) {
     for (int lane = 0; lane < kLanes; ++lane) {
         if (!lane_of(m, lane)) continue;
         p[lane_of(k, lane)] = {lane_of(v.x, lane), lane_of(v.y, lane), lane_of(v.z, lane),
                                lane_of(v.w, lane)};
     }
+}
+
+WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
+    scatter4_where(m, p, address(item_numbers(i)), v);
 }
 
 WEFT_INLINE int largest_whole(whole w) {

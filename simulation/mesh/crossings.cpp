@@ -29,7 +29,7 @@ Feature feature_at(const std::array<int, 3>& triangle, std::array<int, 3> signs)
 
 class CrossingTest {
 public:
-    explicit CrossingTest(const Surface& surface)
+    explicit CrossingTest(const PlainSurface& surface)
         : surface_(surface), stars_(surface.positions.size() + 1) {
         for (const auto& t : surface.triangles) {
             for (const int v : t) ++stars_[static_cast<std::size_t>(v) + 1];
@@ -151,27 +151,27 @@ private:
                                    [&](int v) { return std::ranges::count(others, v) == 1; });
     }
 
-    const Surface& surface_;
+    const PlainSurface& surface_;
     std::vector<int> stars_;  ///< [vertices + 1] where each one's begin in star_triangles_
     std::vector<int> star_triangles_;
 };
 
 }  // namespace
 
-Bounds Surface::bounds(int triangle) const {
+Bounds PlainSurface::bounds(int triangle) const {
     Bounds box{corner(triangle, 0), corner(triangle, 0)};
     for (const std::size_t k : {1U, 2U}) box.include({corner(triangle, k), corner(triangle, k)});
     return box;
 }
 
-BoxTree Surface::tree() const {
+BoxTree PlainSurface::tree() const {
     std::vector<Bounds> boxes;
     boxes.reserve(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) boxes.push_back(bounds(static_cast<int>(t)));
     return BoxTree(std::move(boxes));
 }
 
-std::vector<TrianglePair> find_crossings(const Surface& surface, const BoxTree& tree,
+std::vector<TrianglePair> find_crossings(const PlainSurface& surface, const BoxTree& tree,
                                          const std::function<bool(int, int)>& counts) {
     const CrossingTest test(surface);
     std::vector<std::vector<TrianglePair>> found(

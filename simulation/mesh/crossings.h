@@ -10,7 +10,7 @@
 namespace weft {
 
 /// Triangles in space. Positions are numbers of single precision.
-struct Surface {
+struct PlainSurface {
     std::span<const Vec3> positions;
     std::span<const std::array<int, 3>> triangles;
 
@@ -33,7 +33,7 @@ using TrianglePair = std::array<int, 2>;
 /// vertex lies exactly in it, the neighbours tell whether it gets to the other side. An edge and a
 /// triangle with a common vertex never count.
 /// counts(a, b)  whether that pair is asked for
-std::vector<TrianglePair> find_crossings(const Surface& surface, const BoxTree& tree,
+std::vector<TrianglePair> find_crossings(const PlainSurface& surface, const BoxTree& tree,
                                          const std::function<bool(int, int)>& counts);
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 
 namespace weft {
 
-double winding_number(const Surface& surface, int begin, int end, Vec3 point) {
+double winding_number(const PlainSurface& surface, int begin, int end, Vec3 point) {
     double angle = 0.0;
     for (int t = begin; t < end; ++t) {
         const Vec3 a = surface.corner(t, 0) - point;

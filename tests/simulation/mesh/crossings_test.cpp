@@ -45,7 +45,7 @@ struct Mesh {
     }
 
     std::vector<TrianglePair> crossings() const {
-        const Surface surface{positions, triangles};
+        const PlainSurface surface{positions, triangles};
         return find_crossings(surface, surface.tree(), [](int, int) { return true; });
     }
 };
@@ -60,7 +60,7 @@ bool pierces(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
            dot(cross(a - c, x - c), n) > 0.0;
 }
 
-bool triangles_cross(const Surface& s, int t, int u) {
+bool triangles_cross(const PlainSurface& s, int t, int u) {
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
         if (pierces(s.corner(t, k), s.corner(t, next), s.corner(u, 0), s.corner(u, 1),
@@ -82,7 +82,7 @@ TEST(Crossings, AreThoseOfAllPairsInOrder) {
         const Vec3 at = random(place);
         mesh.add_triangle(at, at + random(size), at + random(size));
     }
-    const Surface surface{mesh.positions, mesh.triangles};
+    const PlainSurface surface{mesh.positions, mesh.triangles};
     std::vector<TrianglePair> expected;
     for (int t = 0; t < 3000; ++t) {
         for (int u = t + 1; u < 3000; ++u) {
@@ -97,7 +97,7 @@ TEST(Crossings, CountOnlyPairsThatAreAskedFor) {
     Mesh mesh;
     mesh.add_triangle({-1, 0, -1}, {1, 0, -1}, {0, 0, 1});
     mesh.add_triangle({0, -1, -0.5}, {0.1, 1, -0.5}, {0, 1, 0.5});
-    const Surface surface{mesh.positions, mesh.triangles};
+    const PlainSurface surface{mesh.positions, mesh.triangles};
     EXPECT_EQ(mesh.crossings(), (std::vector<TrianglePair>{{0, 1}}));
     EXPECT_TRUE(find_crossings(surface, surface.tree(), [](int, int) { return false; }).empty());
 }
@@ -199,7 +199,7 @@ TEST(Winding, TellsInsideFromOutside) {
          {2, 4, 6},
          {1, 3, 5},
          {3, 7, 5}});
-    const Surface surface{cube.positions, cube.triangles};
+    const PlainSurface surface{cube.positions, cube.triangles};
     EXPECT_NEAR(winding_number(surface, 0, 12, {0.3, 0.2, 0.9}), 1.0, 1e-12);
     EXPECT_NEAR(winding_number(surface, 0, 12, {1.3, 0.2, 0.9}), 0.0, 1e-12);
 }
