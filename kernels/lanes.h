@@ -16,7 +16,7 @@
 //   gather(p, k)             p[k], a float             gather_whole(p, k)   an int
 //   store4_where(m, p, i, v)            a store for those items alone for which m holds
 //   scatter_where(m, p, k, v)           likewise, of floats;
-//   scatter_whole_where(m, p, k, v)     and of ints
+//   scatter_whole_where(m, p, k, v)     of ints; scatter4_where(m, p, k, v) of float4
 //   any_item(m)              whether m holds for one of the items at hand
 //   largest_whole(w)         over the items at hand: an int, and so a loop's bound that is the same
 //                            for all of them

@@ -81,6 +81,22 @@ WEFT_KERNEL(move_pins, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const int* ver
     scatter4(positions, vertex, with_w(make3(x, y, z), splat(0.0f)));
 }
 
+/// Puts vertices on the straight way that they go in this frame, where the substep ends; at the
+/// frame's end exactly to its end.
+/// positions  [vertices] xyz [m], w = 0; written
+/// vertices   [count] which
+/// ends       [2 * count] xyz [m] of each at the frame's start, then of each at its end
+/// step       1 / substeps
+WEFT_KERNEL(move_between, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const int* vertices,
+            WEFT_GLOBAL const float4* ends, int count, int substeps, float step, int substep) {
+    const integer vertex = load_index(vertices, i);
+    const real4 start = load4(ends, i);
+    const real4 end = load4(ends + count, i);
+    const real left = splat((float)(substeps - 1 - substep) * step);
+    const real3 way = subtract(xyz(start), xyz(end));
+    scatter4(positions, vertex, with_w(add_scaled(xyz(end), way, left), splat(0.0f)));
+}
+
 WEFT_KERNELS_END
 
 #endif

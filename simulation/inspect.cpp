@@ -192,6 +192,17 @@ void add_pins(LeftOutList& list, const Model& model) {
         list.add("pins", "nothing has pins");
     }
     if (!model.moving_pins) list.add("moving pins", "no pins have a motion", "move_pins");
+    const auto has_frames = [](const MeshObstacle& obstacle) { return !obstacle.frames.empty(); };
+    if (!any_of(model.scene.mesh_obstacles, has_frames)) {
+        list.add("frames of obstacles", "no obstacle has motion.frames", "move_between");
+    }
+}
+
+void add_contact(LeftOutList& list, const Model& model) {
+    if (model.scene.contact) return;
+    list.add_with("contact", "the scene has no [contact]", [](const KernelInfo& kernel) {
+        return kernel.file.find("/contact/") != std::string::npos;
+    });
 }
 
 void add_damping(LeftOutList& list, const Model& model) {
@@ -207,6 +218,7 @@ std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelS
     add_elements(list, model);
     add_obstacles(list, model);
     add_pins(list, model);
+    add_contact(list, model);
     add_damping(list, model);
     if (model.strips.count() < 2) {
         list.add("seams", "the mesh is too small or too short for a second strip");

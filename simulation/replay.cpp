@@ -32,6 +32,7 @@ SimulationOptions without_planning(const SimulationOptions& options, const RunDe
         own.async = parse_async_settings(value);
     }
     own.on_trouble = OnTrouble::kReport;  // the run went on, too
+    own.on_crossing = OnCrossing::kWarn;
     return own;
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
+#include "simulation/contact/response.h"
 #include "simulation/diagnosis.h"
 #include "simulation/error_samples.h"
 #include "simulation/run_description.h"
@@ -74,6 +75,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
         samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
     }
     warn_of_start(*model_, warnings);
+    if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
     run_ = std::make_unique<PlannedExecutor>(
@@ -289,6 +291,7 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     const auto error = samples_ && may_repeat ? samples_->end(*model_) : std::nullopt;
     if (error && iterates_more(*error)) return false;
     watch_->accept(look, look.alarm.has_value());
+    look_at_contact();
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
@@ -332,6 +335,18 @@ void Simulation::tell_of_tolerance(double error) {
                      solver.tolerance, error, solver.iterations,
                      advise_tolerance(model_->scene, samples_->last())),
          false});
+}
+
+/// What is not guaranteed is told, where it happens.
+void Simulation::look_at_contact() {
+    ContactResponse* contact = solver_->contact();
+    if (contact == nullptr) return;
+    run_->executor().fetch(contact->cut_counts());
+    run_->executor().fetch(contact->nearest());
+    const std::string what = contact->trouble();
+    if (what.empty()) return;
+    tell({Alarm::Kind::kDoubt, what, {}},
+         "surfaces may pass through each other there: more substeps may help (docs/contact.md)");
 }
 
 bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {

@@ -15,6 +15,7 @@
 #include "simulation/snapshots.h"
 #include "simulation/solver/async_settings.h"
 #include "simulation/solver/solver.h"
+#include "simulation/start_contacts.h"
 
 namespace weft {
 
@@ -42,6 +43,7 @@ struct SimulationOptions {
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
     OnTrouble on_trouble = OnTrouble::kStop;
+    OnCrossing on_crossing = OnCrossing::kStop;
 };
 
 /// What a frame's record holds besides times, makespans and bytes. Each takes time between frames.
@@ -140,6 +142,7 @@ private:
     bool iterates_more(double error);
     void iterate_less(double error);
     void tell_of_tolerance(double error);
+    void look_at_contact();
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
     void tell(const Alarm& alarm, const std::string& what);

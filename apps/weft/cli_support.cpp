@@ -174,6 +174,17 @@ void add_trouble_option(CLI::App& command, RunOptions& options) {
         ->group("Scene");
 }
 
+void add_crossing_option(CLI::App& command, RunOptions& options) {
+    command
+        .add_option("--on-crossing", options.on_crossing,
+                    "what to do about bodies that cross at the start, in a scene with [contact]: "
+                    "stop (with the pairs), or warn, and go on")
+        ->type_name("KIND")
+        ->check(one_of({"stop", "warn"}))
+        ->capture_default_str()
+        ->group("Scene");
+}
+
 void add_talk_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "say nothing but results and errors");
     command.add_flag("--json", options.json, "print the results as one JSON document");
@@ -185,6 +196,7 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     add_output_options(command, options);
     add_talk_options(command, options);
     add_trouble_option(command, options);
+    add_crossing_option(command, options);
     command
         .add_flag_callback(
             "--print-schema",

@@ -26,10 +26,13 @@ void add_output_options(CLI::App& command, RunOptions& options);
 /// --on-trouble.
 void add_trouble_option(CLI::App& command, RunOptions& options);
 
+/// --on-crossing.
+void add_crossing_option(CLI::App& command, RunOptions& options);
+
 /// --quiet --json.
 void add_talk_options(CLI::App& command, RunOptions& options);
 
-/// All four of the above, and --print-schema.
+/// All of the above, and --print-schema.
 void add_run_options(CLI::App& command, RunOptions& options);
 
 /// Those of `weft error`, which error_command.cpp adds.

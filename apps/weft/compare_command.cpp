@@ -103,6 +103,7 @@ void add_compare_command(CLI::App& app) {
     const auto options = std::make_shared<CompareOptions>();
     add_scene_options(*command, options->run);
     add_device_options(*command, options->run);
+    add_crossing_option(*command, options->run);
     add_talk_options(*command, options->run);
     command->remove_option(command->get_option("--device"));
     command->add_option("--devices", options->devices, "device lists, separated by commas")

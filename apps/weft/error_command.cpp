@@ -29,8 +29,17 @@ void print_study(const ErrorOptions& options, const Study& study, const std::str
         std::cout << to_text(study) << '\n' << files << std::endl;
 }
 
+/// The reference's E has no contact in it.
+Scene scene_of(const ErrorOptions& options) {
+    Scene scene = read_scene(options.run.scene, options.run.overrides());
+    if (scene.contact) {
+        throw UserError(options.run.scene + ": weft error does not know [contact] yet");
+    }
+    return scene;
+}
+
 std::filesystem::path make_folder(const ErrorOptions& options) {
-    const Scene scene = read_scene(options.run.scene, options.run.overrides());
+    const Scene scene = scene_of(options);
     const std::filesystem::path folder = options.run.out
                                              ? std::filesystem::path(*options.run.out)
                                              : std::filesystem::path("out") / scene.name;
@@ -65,7 +74,7 @@ void check_names(const ErrorOptions& options) {
 /// A sweep of its own, of runs that do a curve each.
 void make_study_sweep(const ErrorOptions& options) {
     check_names(options);
-    const Scene scene = read_scene(options.run.scene, options.run.overrides());
+    const Scene scene = scene_of(options);
     const std::string name = scene.name + (options.trajectory ? "-trajectory" : "-error");
     const std::filesystem::path folder = batch::sweep_folder(name, options.run.out);
     const std::string text = study_sweep(options, name, folder);
@@ -119,6 +128,7 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
 void add_error_options(CLI::App& command, ErrorOptions& options) {
     add_scene_options(command, options.run);
     add_device_options(command, options.run);
+    add_crossing_option(command, options.run);
     add_talk_options(command, options.run);
     for (const char* single : {"--device", "--plan", "--solver", "--iterations", "--strips"}) {
         command.remove_option(command.get_option(single));

@@ -75,6 +75,7 @@ SimulationOptions RunOptions::simulation() const {
     if (!strips.empty()) options.division = Division{strips};
     options.cost_file = usual_cost_file();
     options.on_trouble = on_trouble_of(on_trouble);
+    options.on_crossing = on_crossing == "warn" ? OnCrossing::kWarn : OnCrossing::kStop;
     return options;
 }
 

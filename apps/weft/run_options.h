@@ -18,6 +18,7 @@ struct RunOptions {
     std::string math = "strict";
     std::string memory = "auto";
     std::string on_trouble = "stop";
+    std::string on_crossing = "stop";
     std::vector<int> strips;  ///< per device; empty: planned
     // Values of the scene stay text: the scene's own check says what is wrong with them.
     std::optional<std::string> solver;

@@ -39,6 +39,8 @@ RunDescription describe_run(const Simulation& simulation, const RunOptions& opti
     run.settings.emplace_back("plan", options.plan);
     run.settings.emplace_back("math", options.math);
     run.settings.emplace_back("on_trouble", options.on_trouble);
+    if (simulation.model().scene.contact)
+        run.settings.emplace_back("on_crossing", options.on_crossing);
     if (options.memory != "auto") run.settings.emplace_back("memory", options.memory);
     if (!options.strips.empty()) {
         run.settings.emplace_back("division", fmt::format("{}", fmt::join(options.strips, ",")));

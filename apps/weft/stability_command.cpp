@@ -111,6 +111,7 @@ void add_stability_command(CLI::App& app) {
     options->run.device = "cpu/1";
     add_scene_options(*command, options->run);
     add_device_options(*command, options->run);
+    add_crossing_option(*command, options->run);
     add_talk_options(*command, options->run);
     for (const char* other : {"--solver", "--substeps", "--iterations", "--strips"}) {
         command->remove_option(command->get_option(other));

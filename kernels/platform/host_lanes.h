@@ -15,6 +15,12 @@ WEFT_INLINE auto lane_of(const Pack& pack, int lane) {
     return pack[lane];
 }
 
+WEFT_INLINE bool any_item(mask m) {
+    typedef long long halves __attribute__((vector_size(32)));
+    const halves h = reinterpret_cast<halves>(m);
+    return (h[0] | h[1] | h[2] | h[3]) != 0;
+}
+
 WEFT_INLINE whole splat_whole(int n) { return whole{} + n; }
 WEFT_INLINE whole item_numbers(item i) { return lane_indices(i); }
 
@@ -47,6 +53,7 @@ WEFT_INLINE Value lane_of(Value value, int) {
     return value;
 }
 
+WEFT_INLINE bool any_item(mask m) { return m; }
 WEFT_INLINE whole splat_whole(int n) { return n; }
 WEFT_INLINE whole item_numbers(item i) { return i.first; }
 WEFT_INLINE real gather(const float* p, integer k) { return p[k]; }
@@ -70,8 +77,7 @@ WEFT_INLINE void scatter_whole_where(mask m, int* p, integer k, whole v) {
     scatter_lanes(m, p, k, v);
 }
 
-WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
-    const integer k = address(item_numbers(i));
+WEFT_INLINE void scatter4_where(mask m, float4* p, integer k, real4 v) {
     for (int lane = 0; lane < kLanes; ++lane) {
         if (!lane_of(m, lane)) continue;
         p[lane_of(k, lane)] = {lane_of(v.x, lane), lane_of(v.y, lane), lane_of(v.z, lane),
@@ -79,10 +85,8 @@ WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
     }
 }
 
-WEFT_INLINE bool any_item(mask m) {
-    bool any = false;
-    for (int lane = 0; lane < kLanes; ++lane) any = any || lane_of(m, lane);
-    return any;
+WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
+    scatter4_where(m, p, address(item_numbers(i)), v);
 }
 
 WEFT_INLINE int largest_whole(whole w) {

@@ -13,8 +13,11 @@ WEFT_INLINE void store_whole(__global int* p, item i, whole v) { p[i.first] = v;
 WEFT_INLINE real gather(__global const float* p, integer k) { return p[k]; }
 WEFT_INLINE whole gather_whole(__global const int* p, integer k) { return p[k]; }
 
+WEFT_INLINE void scatter4_where(mask m, __global float4* p, integer k, real4 v) {
+    if (m) scatter4(p, k, v);
+}
 WEFT_INLINE void store4_where(mask m, __global float4* p, item i, real4 v) {
-    if (m) scatter4(p, i.first, v);
+    scatter4_where(m, p, i.first, v);
 }
 WEFT_INLINE void scatter_where(mask m, __global float* p, integer k, real v) {
     if (m) p[k] = v;
@@ -80,16 +83,12 @@ WEFT_INLINE void scatter_where(mask m, __global float* p, integer k,
 #define WEFT_STORE4_LANE(l) \
     if (m.l) p[k.l] = (float4)(v.x.l, v.y.l, v.z.l, v.w.l);
 
-WEFT_INLINE void store4_where(mask m, __global float4* p, item i, real4 v) {
-    integer k = lane_indices(i);
-    WEFT_STORE4_LANE(s0)
-    WEFT_STORE4_LANE(s1)
-    WEFT_STORE4_LANE(s2)
-    WEFT_STORE4_LANE(s3)
-    WEFT_STORE4_LANE(s4)
-    WEFT_STORE4_LANE(s5)
-    WEFT_STORE4_LANE(s6)
-    WEFT_STORE4_LANE(s7)
+WEFT_INLINE void scatter4_where(mask m, __global float4* p, integer k, real4 v){
+    WEFT_STORE4_LANE(s0) WEFT_STORE4_LANE(s1) WEFT_STORE4_LANE(s2) WEFT_STORE4_LANE(s3)
+        WEFT_STORE4_LANE(s4) WEFT_STORE4_LANE(s5) WEFT_STORE4_LANE(s6)
+            WEFT_STORE4_LANE(s7)} WEFT_INLINE
+    void store4_where(mask m, __global float4* p, item i, real4 v) {
+    scatter4_where(m, p, lane_indices(i), v);
 }
 
 WEFT_INLINE int any_item(mask m) { return any(m); }

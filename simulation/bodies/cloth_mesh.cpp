@@ -25,20 +25,20 @@ TriangleMesh read_checked(const MeshFile& file, Warnings& warnings) {
     return mesh;
 }
 
-TriangleMesh make_mesh(const Cloth& cloth, Warnings& warnings) {
-    if (const auto* grid = std::get_if<GridShape>(&cloth.shape)) {
-        return make_grid(grid->size, grid->resolution);
-    }
-    if (const auto* cylinder = std::get_if<CylinderShape>(&cloth.shape)) {
-        return make_cylinder(cylinder->radius, cylinder->height, cylinder->resolution);
-    }
-    return read_checked(std::get<MeshFile>(cloth.shape), warnings);
-}
-
 }  // namespace
 
+TriangleMesh make_triangle_mesh(const Shape& shape, Warnings& warnings) {
+    if (const auto* grid = std::get_if<GridShape>(&shape)) {
+        return make_grid(grid->size, grid->resolution);
+    }
+    if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+        return make_cylinder(cylinder->radius, cylinder->height, cylinder->resolution);
+    }
+    return read_checked(std::get<MeshFile>(shape), warnings);
+}
+
 TriangleMesh build_cloth_mesh(const Cloth& cloth, Warnings& warnings) {
-    TriangleMesh mesh = make_mesh(cloth, warnings);
+    TriangleMesh mesh = make_triangle_mesh(cloth.shape, warnings);
     place(mesh.positions, cloth.transform);
     for (auto& corners : mesh.rest) {
         for (Vec3& corner : corners) corner = cloth.transform.scale.x * corner;

@@ -7,6 +7,9 @@
 
 namespace weft {
 
+/// Generates or reads a mesh of triangles, and checks it. Throws UserError; adds to `warnings`.
+TriangleMesh make_triangle_mesh(const Shape& shape, Warnings& warnings);
+
 /// Generates or reads the cloth's mesh, checks it, and places it in the world (rest shape = shape
 /// at time 0, unless a file has it). A vertex that no triangle uses stays in the order, at its
 /// place, without mass: give it no inverse mass, so that it never moves. Throws UserError; adds to

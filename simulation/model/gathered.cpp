@@ -1,6 +1,7 @@
 #include "simulation/model/gathered.h"
 
 #include "simulation/bodies/cloth_mesh.h"
+#include "simulation/bodies/obstacle_mesh.h"
 #include "simulation/bodies/solid_mesh.h"
 #include "simulation/families/builder.h"
 #include "simulation/topology/adjacency.h"
@@ -77,6 +78,29 @@ void add_solid(Gathered& all, const Solid& solid, Warnings& warnings) {
     for (const auto& family : all.families) family->add(SolidPart{solid, mesh, first});
 }
 
+/// A surface that moves as it is told: vertices without mass, all held, and no element.
+void add_obstacle(Gathered& all, const MeshObstacle& obstacle, Warnings& warnings) {
+    const TriangleMesh mesh = build_obstacle_mesh(obstacle, warnings);
+    const int first = static_cast<int>(all.rest.size());
+    all.bodies.push_back({obstacle.name, "obstacle", first, mesh.vertex_count()});
+    all.rest.insert(all.rest.end(), mesh.positions.begin(), mesh.positions.end());
+    all.masses.resize(all.rest.size(), 0.0);
+    all.held.resize(all.rest.size(), 1);
+    all.damping.resize(all.rest.size(), 0.0);
+    add_surface(all, mesh.triangles, first);
+    for (const auto& t : mesh.triangles) {
+        for (const int v : t) all.obstacle_triangles.vertices.push_back(first + v);
+    }
+    MovingPins::Group group;
+    group.frames = read_obstacle_frames(obstacle, mesh);
+    group.frame_time = obstacle.frame_time;
+    if (!obstacle.motion && group.frames.empty()) return;
+    group.motion = obstacle.motion.value_or(Motion{});
+    for (int v = 0; v < mesh.vertex_count(); ++v) group.vertices.push_back(first + v);
+    group.rest = mesh.positions;
+    all.moving.push_back(std::move(group));
+}
+
 }  // namespace
 
 Gathered gather(const Scene& scene, Warnings& warnings) {
@@ -84,6 +108,9 @@ Gathered gather(const Scene& scene, Warnings& warnings) {
     all.families = make_family_builders();
     for (const Cloth& cloth : scene.cloths) add_cloth(all, scene, cloth, warnings);
     for (const Solid& solid : scene.solids) add_solid(all, solid, warnings);
+    for (const MeshObstacle& obstacle : scene.mesh_obstacles) {
+        add_obstacle(all, obstacle, warnings);
+    }
     for (const auto& family : all.families) family->add(ScenePart{scene, all.bodies, all.rest});
     std::erase_if(all.families, [](const auto& family) { return family->stencils().count() == 0; });
     return all;

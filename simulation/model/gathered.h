@@ -10,12 +10,14 @@
 namespace weft {
 
 /// Everything about a scene's bodies before strips are known, in scene order: the vertices of the
-/// cloths, then those of the solids.
+/// cloths, those of the solids, those of the obstacles' meshes.
 struct Gathered {
     std::vector<BodyRange> bodies;
     /// Of cloths all, of solids their surface; what geometry files show.
     std::vector<std::array<int, 3>> triangles;
     std::vector<int> triangle_body;  ///< [triangles]
+    /// No elements, but what lies together in an obstacle's surface lies together in the order.
+    Stencils obstacle_triangles{3, {}};
 
     std::vector<Vec3> rest;       ///< [vertices] [m]
     std::vector<double> masses;   ///< [vertices] [kg]

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "simulation/families/convert.h"
+#include "simulation/model/contact_thickness.h"
 #include "simulation/model/load_paths.h"
 
 namespace weft {
@@ -19,16 +21,24 @@ constexpr double kMargin = 2.0;
 std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> groups,
                                             const Strips& strips) {
     for (MovingPins::Group& group : groups) {
-        std::vector<std::pair<int, Vec3>> pins;
-        for (std::size_t i = 0; i < group.vertices.size(); ++i) {
-            pins.emplace_back(strips.rank[static_cast<std::size_t>(group.vertices[i])],
-                              group.rest[i]);
-        }
-        std::sort(pins.begin(), pins.end(),
-                  [](const auto& a, const auto& b) { return a.first < b.first; });
-        for (std::size_t i = 0; i < pins.size(); ++i) {
-            std::tie(group.vertices[i], group.rest[i]) = pins[i];
-        }
+        const auto rank = [&](int i) {
+            const int old = group.vertices[static_cast<std::size_t>(i)];
+            return strips.rank[static_cast<std::size_t>(old)];
+        };
+        std::vector<int> order(group.vertices.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::sort(order, {}, rank);
+        const auto sorted = [&](const auto& list) {
+            auto copy = list;
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                copy[i] = list[static_cast<std::size_t>(order[i])];
+            }
+            return copy;
+        };
+        group.rest = sorted(group.rest);
+        for (auto& frame : group.frames) frame = sorted(frame);
+        std::ranges::transform(order, order.begin(), rank);
+        group.vertices = std::move(order);
     }
     return groups;
 }
@@ -87,13 +97,20 @@ Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings)
     return scene;
 }
 
+/// The scene with all values that the file leaves out and the meshes say.
+Scene with_values(const Scene& given, const Gathered& all, Warnings& warnings) {
+    Scene scene = with_substeps(given, all, warnings);
+    if (scene.contact) choose_thickness(*scene.contact, all, warnings);
+    return scene;
+}
+
 }  // namespace
 
 Model::Model(const Scene& given, Warnings& warnings)
     : Model(given, gather(given, warnings), warnings) {}
 
 Model::Model(const Scene& given, Gathered all, Warnings& warnings)
-    : scene(with_substeps(given, all, warnings)), h(scene.dt / scene.substeps) {
+    : scene(with_values(given, all, warnings)), h(scene.dt / scene.substeps) {
     bodies = std::move(all.bodies);
     triangles = std::move(all.triangles);
     triangle_body = std::move(all.triangle_body);
@@ -103,6 +120,7 @@ Model::Model(const Scene& given, Gathered all, Warnings& warnings)
     options.extra_levels = is_vertex_wise(scene.solver.method) ? 1 : 0;
     std::vector<Stencils> kinds;
     for (const auto& family : all.families) kinds.push_back(family->stencils());
+    if (all.obstacle_triangles.count() > 0) kinds.push_back(all.obstacle_triangles);
     strips = make_strips(static_cast<int>(all.rest.size()), kinds, options);
     strip_begin_ = std::make_unique<Buffer<int>>("strips", strips.begin.size());
     std::copy(strips.begin.begin(), strips.begin.end(), strip_begin_->data());
@@ -150,7 +168,12 @@ void Model::place(double time) {
         (*gravity)[static_cast<std::size_t>(substep)] =
             to_float4(scene.gravity_at(time + (substep + 0.5) * h));
     }
-    if (moving_pins) moving_pins->place(time, h);
+    if (moving_pins) {
+        moving_pins->place(time, h);
+        if (scene.contact) {
+            moving_pins->farthest()[0] = static_cast<float>(moving_pins->farthest_move(time, h));
+        }
+    }
     for (const auto& family : families) family->place(time, h);
     time_ = time;
     if (obstacles) place_obstacles(obstacles->have_width() ? speed_ahead() : 0.0);
@@ -190,7 +213,10 @@ double Model::speed_ahead() const {
 
 std::vector<BufferStorage*> Model::placed_buffers() {
     std::vector<BufferStorage*> buffers{gravity.get()};
-    if (moving_pins) buffers.push_back(&moving_pins->motions());
+    if (moving_pins) {
+        moving_pins->add_placed(buffers);
+        buffers.push_back(&moving_pins->farthest());
+    }
     if (obstacles) buffers.push_back(&obstacles->placements());
     for (const auto& family : families) {
         if (BufferStorage* buffer = family->placed_buffer()) buffers.push_back(buffer);

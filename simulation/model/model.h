@@ -55,7 +55,7 @@ public:
     /// The vertices of each strip, as items.
     const Segments& vertices() const { return vertices_; }
 
-    const Scene scene;  ///< as given, with substeps chosen where the file leaves them out
+    const Scene scene;  ///< as given, with substeps and thickness chosen where left out
     const double h;     ///< one substep [s]
 
     // As the scene has it (scene order).

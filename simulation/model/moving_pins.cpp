@@ -7,6 +7,21 @@
 
 namespace weft {
 
+namespace {
+
+/// Where a pin is at a time [s].
+Vec3 place_of(const MovingPins::Group& group, std::size_t pin, double time, const Frame& map) {
+    if (group.frames.empty()) return map.to_world(group.rest[pin]);
+    const double last = static_cast<double>(group.frames.size() - 1);
+    const double at = std::clamp(time / group.frame_time, 0.0, last);
+    const auto before = static_cast<std::size_t>(at);
+    const std::size_t after = std::min(before + 1, group.frames.size() - 1);
+    const Vec3 from = group.frames[before][pin];
+    return from + (at - static_cast<double>(before)) * (group.frames[after][pin] - from);
+}
+
+}  // namespace
+
 MovingPins::MovingPins(std::vector<Group> groups, const Strips& strips, int substeps)
     : groups_(std::move(groups)),
       substeps_(substeps),
@@ -16,7 +31,8 @@ MovingPins::MovingPins(std::vector<Group> groups, const Strips& strips, int subs
         auto table = std::unique_ptr<Table>(new Table{{"pins.vertices", count},
                                                       {"pins.rest", count},
                                                       {"pins.segments", strips.begin.size()},
-                                                      {}});
+                                                      {},
+                                                      nullptr});
         for (std::size_t i = 0; i < count; ++i) {
             table->vertices[i] = group.vertices[i];
             table->rest[i] = to_float4(group.rest[i]);
@@ -27,6 +43,9 @@ MovingPins::MovingPins(std::vector<Group> groups, const Strips& strips, int subs
             table->segment_begin[s] = static_cast<int>(first - group.vertices.begin());
         }
         table->segments = {&table->segment_begin, 0, 1, strips.count()};
+        if (!group.frames.empty()) {
+            table->ends = std::make_unique<Buffer<float4>>("pins.ends", 2 * count);
+        }
         tables_.push_back(std::move(table));
     }
 }
@@ -40,6 +59,25 @@ void MovingPins::place(double time, double h) {
             for (std::size_t k = 0; k < 3; ++k) *rows++ = to_float4(map.axes.rows[k], t[k]);
         }
     }
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        if (tables_[g]->ends) place_ends(groups_[g], *tables_[g], time, h);
+    }
+}
+
+/// Nearly always a frame's ends are those of one step between two files.
+void MovingPins::place_ends(const Group& group, Table& table, double time, double h) const {
+    const std::size_t count = group.vertices.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        (*table.ends)[i] = to_float4(place_of(group, i, time, {}));
+        (*table.ends)[count + i] = to_float4(place_of(group, i, time + substeps_ * h, {}));
+    }
+}
+
+void MovingPins::add_placed(std::vector<BufferStorage*>& buffers) {
+    buffers.push_back(&motions_);
+    for (const auto& table : tables_) {
+        if (table->ends) buffers.push_back(table->ends.get());
+    }
 }
 
 double MovingPins::farthest_move(double time, double h) const {
@@ -48,8 +86,9 @@ double MovingPins::farthest_move(double time, double h) const {
         for (const Group& group : groups_) {
             const Frame before = group.motion.displacement(time + substep * h);
             const Frame now = group.motion.displacement(time + (substep + 1) * h);
-            for (const Vec3& p : group.rest) {
-                most = std::max(most, length(now.to_world(p) - before.to_world(p)));
+            for (std::size_t i = 0; i < group.rest.size(); ++i) {
+                most = std::max(most, length(place_of(group, i, time + (substep + 1) * h, now) -
+                                             place_of(group, i, time + substep * h, before)));
             }
         }
     }
@@ -87,7 +126,7 @@ void MovingPins::place_at(double time, std::span<Vec3> positions) const {
     for (const Group& group : groups_) {
         const Frame map = group.motion.displacement(time);
         for (std::size_t i = 0; i < group.vertices.size(); ++i) {
-            positions[static_cast<std::size_t>(group.vertices[i])] = map.to_world(group.rest[i]);
+            positions[static_cast<std::size_t>(group.vertices[i])] = place_of(group, i, time, map);
         }
     }
 }
@@ -96,6 +135,13 @@ void MovingPins::add_launches(std::vector<Launch>& launches, Buffer<float4>& pos
     const int count = static_cast<int>(groups_.size());
     for (int g = 0; g < count; ++g) {
         Table& table = *tables_[static_cast<std::size_t>(g)];
+        if (table.ends) {
+            launches.push_back(launch(kernels::move_between, table.segments, positions,
+                                      table.vertices, *table.ends,
+                                      static_cast<int>(table.vertices.count()), substeps_,
+                                      1.0f / static_cast<float>(substeps_), kInstance));
+            continue;
+        }
         launches.push_back(launch(kernels::move_pins, table.segments, positions, table.vertices,
                                   table.rest, motions_, count, g, kInstance));
     }

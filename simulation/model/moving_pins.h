@@ -18,6 +18,9 @@ public:
         std::vector<int> vertices;  ///< new vertices, ascending
         std::vector<Vec3> rest;     ///< where they are at time 0
         Motion motion;
+        /// Instead of the motion: [frames][vertices] where they are every frame_time [s].
+        std::vector<std::vector<Vec3>> frames{};
+        double frame_time = 0.0;
     };
     MovingPins(std::vector<Group> groups, const Strips& strips, int substeps);
 
@@ -32,7 +35,10 @@ public:
     std::size_t count() const;
     /// Writes where the pins are at `time` into their places of `positions` (new order).
     void place_at(double time, std::span<Vec3> positions) const;
-    Buffer<float4>& motions() { return motions_; }
+    /// Those that place() writes.
+    void add_placed(std::vector<BufferStorage*>& buffers);
+    /// [1] the farthest that a pin goes in a substep of the frame [m].
+    Buffer<float>& farthest() { return farthest_; }
     void add_launches(std::vector<Launch>& launches, Buffer<float4>& positions);
 
 private:
@@ -41,11 +47,15 @@ private:
         Buffer<float4> rest;
         Buffer<int> segment_begin;  ///< [strips + 1]
         Segments segments;
+        /// [2 * vertices] where they are at the frame's start and end; null: no frames
+        std::unique_ptr<Buffer<float4>> ends{};
     };
+    void place_ends(const Group& group, Table& table, double time, double h) const;
     std::vector<Group> groups_;
     std::vector<std::unique_ptr<Table>> tables_;  ///< [group]
     int substeps_;
     Buffer<float4> motions_;  ///< [substep][group][3 rows]
+    Buffer<float> farthest_{"pins.farthest", 1};
 };
 
 }  // namespace weft

@@ -30,10 +30,14 @@ const TableKeys& keyframe_table() {
          .fallback = std::vector<double>{0, 0, 0},
          .range = kPlace},
         {.name = "rotate",
-         .help = "angle about the motion's axis",
+         .help = "angle about the axis",
          .unit = "degrees",
          .fallback = 0.0,
          .range = between(-1e9, 1e9)},
+        {.name = "axis",
+         .forms = {{3}},
+         .help = "axis of this turn, any length; default: the motion's. Between two axes the turn "
+                 "goes the shortest way"},
     }};
     return table;
 }
@@ -64,6 +68,14 @@ const TableKeys& motion_table() {
          .forms = {{kAny}},
          .help = "by rising time; linear between, held before the first and after the last",
          .table = &keyframe_table()},
+        {.name = "frames",
+         .type = Type::kText,
+         .help = "of a mesh obstacle, instead of all else: OBJ files of the same vertices, as in "
+                 "body_*.obj, relative to the scene file; the first is the start, linear between"},
+        {.name = "frame_time",
+         .help = "time between two of these files; default: one frame of the scene",
+         .unit = "s",
+         .range = positive_up_to(1e6)},
     }};
     return table;
 }
@@ -311,6 +323,23 @@ const Key& poisson_key() {
 Key motion_key(std::string help) {
     return {
         .name = "motion", .type = Type::kTable, .help = std::move(help), .table = &motion_table()};
+}
+
+std::vector<Key> mesh_obstacle_keys() {
+    return {{.name = "mesh",
+             .type = Type::kText,
+             .help = "Wavefront OBJ file, relative to the scene file; or grid, or cylinder"},
+            {.name = "grid",
+             .type = Type::kTable,
+             .help = "flat sheet in the x-z plane around the origin",
+             .table = &grid_table()},
+            {.name = "cylinder",
+             .type = Type::kTable,
+             .help = "open side of a cone along y around the origin: a funnel",
+             .table = &cylinder_table()},
+            scale_key(),
+            rotation_key(),
+            translate_key()};
 }
 
 const TableKeys& cloth_table() {

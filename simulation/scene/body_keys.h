@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "simulation/scene/keys.h"
 
@@ -15,6 +16,9 @@ const Key& young_key();
 const Key& poisson_key();
 /// How an obstacle or a group of pins moves.
 Key motion_key(std::string help);
+
+/// What the shape "mesh" of an obstacle adds to what all have.
+std::vector<Key> mesh_obstacle_keys();
 
 const TableKeys& cloth_table();
 const TableKeys& solid_table();

@@ -30,6 +30,8 @@ Json scalar_schema(const Key& key) {
     switch (key.type) {
         case Type::kTable:
             return table_schema(*key.table);
+        case Type::kBoolean:
+            return {{"type", "boolean"}};
         case Type::kText: {
             Json schema{{"type", "string"}};
             if (!key.choices.empty()) schema["enum"] = key.choices;
@@ -58,10 +60,6 @@ Json form_schema(const Key& key, const Dims& dims) {
 }
 
 Json key_schema(const Key& key) {
-    if (key.later) {
-        return {{"description", key.help + "; not available in this version"},
-                {"not", Json::object()}};
-    }
     Json schema;
     if (key.forms.size() == 1) {
         schema = form_schema(key, key.forms.front());

@@ -111,6 +111,29 @@ const TableKeys& output_table() {
     return table;
 }
 
+const TableKeys& contact_table() {
+    static const TableKeys table{{
+        {.name = "self",
+         .type = Type::kBoolean,
+         .help = "bodies touch themselves, too, not only each other",
+         .fallback = Contact{}.self},
+        {.name = "thickness",
+         .help = "distance of surfaces at which they begin to push each other apart; default: a "
+                 "quarter of the mean edge",
+         .unit = "m",
+         .range = positive_up_to(1e3)},
+        {.name = "friction",
+         .help = "Coulomb coefficient; default: no friction",
+         .range = between(0.0, 100.0)},
+        {.name = "stiffness",
+         .help = "of contacts, in units of what mass, time step and material make stiff in the "
+                 "softest of the vertices that touch",
+         .fallback = Contact{}.stiffness,
+         .range = between(1e-3, 1e3)},
+    }};
+    return table;
+}
+
 TableKeys make_obstacle_table() {
     TableKeys table{
         .keys =
@@ -119,8 +142,7 @@ TableKeys make_obstacle_table() {
                 {.name = "shape",
                  .type = Type::kText,
                  .help = "form of the body",
-                 .required = true,
-                 .later_choices = {"mesh"}},
+                 .required = true},
                 {.name = "friction",
                  .help = "Coulomb coefficient; default: no friction",
                  .range = between(0.0, 100.0)},
@@ -130,6 +152,9 @@ TableKeys make_obstacle_table() {
                  .fallback = 0.0,
                  .range = between(0.0, 1e3)},
                 motion_key("how it moves; default: it rests"),
+                {.name = "parent",
+                 .type = Type::kText,
+                 .help = "an obstacle further up in the file that carries this one along"},
             },
         .switch_key = "shape",
     };
@@ -137,6 +162,8 @@ TableKeys make_obstacle_table() {
         table.keys[1].choices.push_back(shape.name);
         table.variants.push_back({shape.name, shape.keys});
     }
+    table.keys[1].choices.emplace_back("mesh");
+    table.variants.push_back({"mesh", mesh_obstacle_keys()});
     return table;
 }
 
@@ -196,8 +223,8 @@ const TableKeys& scene_keys() {
          .table = &obstacle_table()},
         {.name = "contact",
          .type = Type::kTable,
-         .help = "contact of cloth with itself and other cloth",
-         .later = true},
+         .help = "contact of cloth and solids with each other and with themselves; default: none",
+         .table = &contact_table()},
     }};
     return table;
 }

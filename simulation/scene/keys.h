@@ -25,7 +25,7 @@ constexpr Range positive_up_to(double high) {
     return {.low = 0.0, .high = high, .low_excluded = true};
 }
 
-enum class Type { kInteger, kNumber, kText, kTable };
+enum class Type { kBoolean, kInteger, kNumber, kText, kTable };
 
 /// Lengths of nested lists from the outside in; {} is a plain value, {3} a list of three,
 /// {kAny, 3} a list of any number of lists of three.
@@ -33,7 +33,7 @@ using Dims = std::vector<int>;
 constexpr int kAny = -1;
 
 using Default =
-    std::variant<std::monostate, std::int64_t, double, std::string, std::vector<double>>;
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
 
 struct TableKeys;
 
@@ -46,13 +46,11 @@ struct Key {
     std::string help{};
     std::string unit{};
     bool required = false;
-    Default fallback{};                        ///< absent: the thing itself is absent
-    Range range{};                             ///< of numbers
-    std::vector<std::string> choices{};        ///< of texts; empty: any text
-    std::vector<std::string> later_choices{};  ///< known names that this version does not have
-    const TableKeys* table = nullptr;          ///< of Type::kTable
-    bool made_if_absent = false;               ///< a table with defaults for all that it needs
-    bool later = false;                        ///< a known key that this version does not have
+    Default fallback{};                  ///< absent: the thing itself is absent
+    Range range{};                       ///< of numbers
+    std::vector<std::string> choices{};  ///< of texts; empty: any text
+    const TableKeys* table = nullptr;    ///< of Type::kTable
+    bool made_if_absent = false;         ///< a table with defaults for all that it needs
 };
 
 /// The keys of one table.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,9 @@ struct Frame {
 struct MotionKey {
     double time = 0.0;    ///< [s]
     Vec3 translate{};     ///< [m]
-    double rotate = 0.0;  ///< [degrees] about the motion's axis
+    double rotate = 0.0;  ///< [degrees] about the axis
+    /// Absent: the motion's. Between keys of two axes the turn goes the shortest way.
+    std::optional<Vec3> axis{};
 };
 
 /// A prescribed rigid motion, of an obstacle or of pins, relative to the place at time 0:
@@ -33,10 +36,15 @@ struct Motion {
     Vec3 axis{0.0, 1.0, 0.0};
     Vec3 center{};                  ///< [m], moves with the translation
     std::vector<MotionKey> keys{};  ///< by rising time; empty: constant velocities
+    /// That carries all of this along; null: none.
+    std::shared_ptr<const Motion> parent{};
 
     /// The motion as a map of the world at time 0 to the world at `time` [s]:
     /// p(time) = displacement(time).to_world(p(0)).
     Frame displacement(double time) const;
+
+private:
+    Frame own_displacement(double time) const;
 };
 
 /// The fastest turn of a motion.

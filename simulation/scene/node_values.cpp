@@ -44,6 +44,10 @@ std::optional<double> optional_number(const Node& table, std::string_view key) {
     return number_value(table, key);
 }
 
+bool truth_value(const Node& table, std::string_view key) {
+    return std::get<bool>(member(table, key).value);
+}
+
 int integer_value(const Node& table, std::string_view key) {
     return integer_of(member(table, key));
 }

@@ -17,6 +17,7 @@ namespace weft {
 double number_value(const Node& table, std::string_view key);
 /// A number that does nothing at 0 counts as not named.
 std::optional<double> optional_number(const Node& table, std::string_view key);
+bool truth_value(const Node& table, std::string_view key);
 int integer_value(const Node& table, std::string_view key);
 std::string text_value(const Node& table, std::string_view key);
 std::vector<double> numbers_of(const Node& list);

@@ -265,6 +265,34 @@ Solid read_solid(const Node& table, const std::string& scene_path) {
     return solid;
 }
 
+MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene) {
+    MeshObstacle obstacle;
+    obstacle.where = table.mark.text();
+    int shapes = 0;
+    for (const char* key : {"mesh", "grid", "cylinder"}) shapes += table.find(key) ? 1 : 0;
+    if (shapes != 1) {
+        throw value_error(table, "shape",
+                          fmt::format("needs exactly one of mesh, grid, cylinder, has {}", shapes));
+    }
+    obstacle.shape = read_cloth_shape(table, scene.path);
+    obstacle.transform = read_transform(table);
+    for (const char* key : {"friction", "thickness"}) {
+        if (!optional_number(table, key)) continue;
+        throw value_error(table, key, "a mesh has that of [contact]; leave it out");
+    }
+    const Node* motion = table.find("motion");
+    if (!motion || !motion->find("frames")) {
+        obstacle.motion = read_motion(table, obstacle.transform.translate);
+        return obstacle;
+    }
+    for (const char* key : {"velocity", "angular_velocity", "keyframes", "center"}) {
+        if (motion->find(key)) throw value_error(*motion, key, "cannot stand beside frames");
+    }
+    obstacle.frames = mesh_path(*motion, scene.path, "frames");
+    obstacle.frame_time = optional_number(*motion, "frame_time").value_or(scene.dt);
+    return obstacle;
+}
+
 std::vector<Attachment> read_attachments(const Node& root, const Scene& scene) {
     std::vector<Attachment> attachments;
     const Node* list = root.find("attachment");

@@ -13,6 +13,9 @@ namespace weft {
 Cloth read_cloth(const Node& table, const std::string& scene_path);
 Solid read_solid(const Node& table, const std::string& scene_path);
 
+/// scene: has its path and its dt already. All but the name and the parent.
+MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene);
+
 /// scene: has its cloths and solids already.
 std::vector<Attachment> read_attachments(const Node& root, const Scene& scene);
 std::vector<Seam> read_seams(const Node& root, const Scene& scene);

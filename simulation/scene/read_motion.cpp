@@ -12,8 +12,9 @@ namespace {
 std::vector<MotionKey> read_motion_keys(const Node& table) {
     std::vector<MotionKey> keys;
     for (const Node& node : table.find("keyframes")->array()) {
-        const MotionKey key{number_value(node, "time"), vec3_value(node, "translate"),
-                            number_value(node, "rotate")};
+        MotionKey key{number_value(node, "time"), vec3_value(node, "translate"),
+                      number_value(node, "rotate"), std::nullopt};
+        if (node.find("axis")) key.axis = direction_value(node, "axis");
         if (!keys.empty()) require_rising(node, "time", keys.back().time, key.time);
         keys.push_back(key);
     }
@@ -36,6 +37,11 @@ void require_rising(const Node& table, std::string_view key, double before, doub
 std::optional<Motion> read_motion(const Node& owner, Vec3 center) {
     const Node* table = owner.find("motion");
     if (!table) return std::nullopt;
+    for (const char* key : {"frames", "frame_time"}) {
+        if (table->find(key)) {
+            throw value_error(*table, key, "only an obstacle of shape = \"mesh\" has frames");
+        }
+    }
     Motion motion;
     motion.axis = direction_value(*table, "axis");
     motion.center = table->find("center") ? vec3_value(*table, "center") : center;

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <span>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "simulation/scene/keys.h"
+#include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/obstacle_shapes.h"
 #include "simulation/scene/overrides.h"
@@ -89,6 +91,74 @@ std::vector<Entry> read_entries(const Node& root, const std::string& key,
     return entries;
 }
 
+/// One entry of [[obstacle]], of either kind.
+struct AnyObstacle {
+    std::string name{};
+    std::optional<Obstacle> convex{};
+    std::optional<MeshObstacle> mesh{};
+
+    std::optional<Motion>& motion() { return convex ? convex->motion : mesh->motion; }
+};
+
+AnyObstacle read_any_obstacle(const Node& table, const Scene& scene) {
+    AnyObstacle any;
+    if (text_value(table, "shape") == "mesh") {
+        any.mesh = read_mesh_obstacle(table, scene);
+    } else {
+        any.convex = read_obstacle(table);
+    }
+    return any;
+}
+
+/// Gives an obstacle the motion of its parent, one of those before it.
+void adopt(const Node& table, std::span<AnyObstacle> before, AnyObstacle& child) {
+    const std::string name = text_value(table, "parent");
+    const auto parent = std::ranges::find(before, name, &AnyObstacle::name);
+    if (parent == before.end()) {
+        std::vector<std::string> names;
+        for (const AnyObstacle& other : before) names.push_back(other.name);
+        throw value_error(table, "parent",
+                          names.empty() ? "no obstacle stands further up"
+                                        : "no obstacle further up has this name; " +
+                                              near_miss_or_list(name, names));
+    }
+    for (const AnyObstacle* any : {&*parent, &child}) {
+        if (any->mesh && !any->mesh->frames.empty()) {
+            throw value_error(table, "parent", any->name + " moves by frames, which has no parts");
+        }
+    }
+    if (!parent->motion()) return;
+    Motion motion = child.motion().value_or(Motion{});
+    motion.parent = std::make_shared<const Motion>(*parent->motion());
+    child.motion() = std::move(motion);
+}
+
+void read_obstacles(const Node& root, const std::set<std::string>& body_names, Scene& scene) {
+    std::set<std::string> names;
+    std::vector<AnyObstacle> list = read_entries<AnyObstacle>(
+        root, "obstacle", names,
+        [&](const Node& table) { return read_any_obstacle(table, scene); });
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const Node& table = root.find("obstacle")->array()[i];
+        if (table.find("parent")) adopt(table, std::span(list).first(i), list[i]);
+        if (list[i].mesh && !scene.contact) {
+            throw value_error(table, "shape", "is touched by [contact] alone: add that table");
+        }
+        if (list[i].mesh && body_names.contains(list[i].name)) {
+            throw value_error(table, "name", "a cloth or solid has that name");
+        }
+    }
+    for (AnyObstacle& any : list) {
+        if (any.convex) {
+            any.convex->name = any.name;
+            scene.obstacles.push_back(std::move(*any.convex));
+        } else {
+            any.mesh->name = any.name;
+            scene.mesh_obstacles.push_back(std::move(*any.mesh));
+        }
+    }
+}
+
 std::vector<GravityKey> read_gravity_keys(const Node& table) {
     std::vector<GravityKey> keys;
     const Node* list = table.find("gravity_keyframes");
@@ -127,6 +197,17 @@ SolverSettings read_solver(const Node& table) {
     return solver;
 }
 
+std::optional<Contact> read_contact(const Node& root) {
+    const Node* table = root.find("contact");
+    if (!table) return std::nullopt;
+    Contact contact;
+    contact.self = truth_value(*table, "self");
+    contact.thickness = optional_number(*table, "thickness").value_or(0.0);
+    contact.friction = optional_number(*table, "friction");
+    contact.stiffness = number_value(*table, "stiffness");
+    return contact;
+}
+
 Scene read_document(const Node& root, const std::string& path) {
     Scene scene;
     scene.path = path;
@@ -143,8 +224,8 @@ Scene read_document(const Node& root, const std::string& path) {
                                        [&](const Node& table) { return read_cloth(table, path); });
     scene.solids = read_entries<Solid>(root, "solid", names,
                                        [&](const Node& table) { return read_solid(table, path); });
-    std::set<std::string> obstacle_names;
-    scene.obstacles = read_entries<Obstacle>(root, "obstacle", obstacle_names, read_obstacle);
+    scene.contact = read_contact(root);
+    read_obstacles(root, names, scene);
     scene.attachments = read_attachments(root, scene);
     scene.seams = read_seams(root, scene);
     if (scene.cloths.empty() && scene.solids.empty()) {

@@ -195,6 +195,31 @@ struct Obstacle {
     Frame frame_at(double time) const { return moved(frame, motion, time); }
 };
 
+/// [[obstacle]] of shape "mesh": a surface whose vertices move as they are told, and that cloth and
+/// solids touch by [contact].
+struct MeshObstacle {
+    std::string name;  ///< unique among obstacles, cloths and solids
+    Shape shape;       ///< a grid, a cylinder or an OBJ file
+    Transform transform;
+    std::optional<Motion> motion;
+    /// Instead of a motion: OBJ files of the same vertices, "body_*.obj"; empty: none. The n-th one
+    /// is where they are after n times frame_time, linear between, held behind the last.
+    std::string frames;
+    double frame_time = 0.0;  ///< [s], > 0
+    std::string where;        ///< "file:line:column", for messages
+};
+
+/// [contact]: bodies touch each other, and themselves.
+struct Contact {
+    bool self = true;  ///< a body with itself, too
+    /// [m] between the middles of two surfaces: where they begin to push each other apart, > 0;
+    /// 0: chosen by the meshes. In a Model's scene it is always chosen.
+    double thickness = 0.0;
+    std::optional<double> friction;  ///< Coulomb coefficient, > 0
+    /// Of a contact, in units of the least m / h^2 + stiffness at rest of its vertices, > 0.
+    double stiffness = 4.0;
+};
+
 /// [guard]: beyond either bound a state counts as exploded.
 struct Guard {
     double max_speed = 1000.0;  ///< [m/s] of any vertex
@@ -231,6 +256,8 @@ struct Scene {
     std::vector<Attachment> attachments;
     std::vector<Seam> seams;
     std::vector<Obstacle> obstacles;
+    std::vector<MeshObstacle> mesh_obstacles;  ///< only with contact
+    std::optional<Contact> contact;
 
     // Where it came from, for traces and replays.
     std::string path;                    ///< as given; empty for a scene read from a string

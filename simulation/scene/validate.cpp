@@ -29,6 +29,8 @@ std::string joined(const std::string& path, const std::string& key) {
 
 std::string scalar_words(Type type, bool plural) {
     switch (type) {
+        case Type::kBoolean:
+            return plural ? "truth values" : "true or false";
         case Type::kInteger:
             return plural ? "integers" : "an integer";
         case Type::kNumber:
@@ -97,15 +99,7 @@ void check_int32(const Node& node, const Key& key, const std::string& path) {
 void check_text(const Node& node, const Key& key, const std::string& path) {
     const auto* text = std::get_if<std::string>(&node.value);
     if (!text) fail(node, path, expected(key));
-    const auto among = [&](const std::vector<std::string>& list) {
-        return std::find(list.begin(), list.end(), *text) != list.end();
-    };
-    if (among(key.later_choices)) {
-        fail(node, path,
-             fmt::format("not available in this version of weft; available: {}",
-                         fmt::join(key.choices, ", ")));
-    }
-    if (!key.choices.empty() && !among(key.choices)) {
+    if (!key.choices.empty() && std::ranges::count(key.choices, *text) == 0) {
         fail(node, path, "unknown; " + near_miss_or_list(*text, key.choices));
     }
 }
@@ -117,6 +111,9 @@ void check_table(Node& node, const TableKeys& keys, const std::string& path);
 
 void check_scalar(Node& node, const Key& key, const std::string& path) {
     switch (key.type) {
+        case Type::kBoolean:
+            if (!std::holds_alternative<bool>(node.value)) fail(node, path, expected(key));
+            return;
         case Type::kInteger:
             return check_int32(node, key, path);
         case Type::kNumber:
@@ -169,6 +166,7 @@ void check_value(Node& node, const Key& key, const std::string& path) {
 Node default_node(const Default& fallback, const Mark& mark) {
     Node node;
     node.mark = mark;
+    if (const auto* truth = std::get_if<bool>(&fallback)) node.value = *truth;
     if (const auto* integer = std::get_if<std::int64_t>(&fallback)) node.value = *integer;
     if (const auto* number = std::get_if<double>(&fallback)) node.value = *number;
     if (const auto* text = std::get_if<std::string>(&fallback)) node.value = *text;
@@ -236,12 +234,6 @@ void check_table(Node& node, const TableKeys& keys, const std::string& path) {
     const std::vector<const Key*> in_force = keys_in_force(node, keys, path);
     for (Member& member : node.table()) {
         const Key* key = known_key(in_force, member, path);
-        if (key->later) {
-            throw UserError(
-                fmt::format("{}: {}: {} is not available in this version of weft; "
-                            "leave it out",
-                            member.mark.text(), joined(path, key->name), key->help));
-        }
         // The switch key has been checked, to know which keys there are.
         if (key->name != keys.switch_key) check_value(member.value, *key, joined(path, key->name));
     }

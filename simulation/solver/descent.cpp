@@ -9,11 +9,29 @@
 
 namespace weft {
 
-DescentSubstep::DescentSubstep(Model& model)
+DescentSubstep::DescentSubstep(Model& model, int first_kind)
     : model_(model),
+      first_kind_(first_kind),
       targets_("targets", static_cast<std::size_t>(model.vertex_count())),
-      free_bodies_(FreeBodies::of(model)) {
-    if (model.obstacles) pushed_ = std::make_unique<Buffer<float4>>("pushed", targets_.count());
+      free_bodies_(FreeBodies::of(model)),
+      contact_(ContactResponse::of(model, first_kind + (free_bodies_ ? 1 : 0))) {
+    if (model.obstacles || (contact_ && free_bodies_))
+        pushed_ = std::make_unique<Buffer<float4>>("pushed", targets_.count());
+}
+
+void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
+    if (!contact_) return;
+    for (const TaskBody* body : contact_->bodies()) bodies.push_back(body);
+}
+
+void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
+    if (free_bodies_) kinds.push_back("momentum");
+    if (!contact_) return;
+    for (std::string& kind : contact_->kinds()) kinds.push_back(std::move(kind));
+}
+
+std::vector<RowTable*> DescentSubstep::tables() {
+    return contact_ ? contact_->tables() : std::vector<RowTable*>{};
 }
 
 std::vector<Launch> DescentSubstep::begin() {
@@ -22,6 +40,7 @@ std::vector<Launch> DescentSubstep::begin() {
                targets_, *model_.velocities, *model_.gravity, static_cast<float>(model_.h),
                static_cast<float>(model_.h * model_.h), kInstance)};
     if (model_.moving_pins) model_.moving_pins->add_launches(launches, *model_.positions);
+    if (contact_) contact_->add_begin(launches, targets_);
     return launches;
 }
 
@@ -39,26 +58,30 @@ std::vector<Launch> DescentSubstep::end() {
     launches.push_back(
         launch(kernels::keep_deviation, model_.vertices(), *model_.positions, targets_));
     if (free_bodies_) add_shift(launches);
+    if (contact_) contact_->add_count(launches);
     return launches;
 }
 
-/// Obstacles have the last word: a shift may lead into them.
+/// Obstacles and contacts have the last word: a shift may lead into them.
 void DescentSubstep::add_shift(std::vector<Launch>& launches) {
     for (Launch& shift : free_bodies_->shift(model_, targets_)) launches.push_back(shift);
-    if (!model_.obstacles) return;
+    if (!pushed_) return;
     launches.push_back(
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
-    model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
-                                   *model_.previous);
+    if (model_.obstacles) {
+        model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
+                                       *model_.previous);
+    }
+    if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,
                               *pushed_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
 }
 
 std::vector<Launch> DescentSubstep::sum_momentum(Buffer<float4>& positions) {
-    return free_bodies_->sum(positions, targets_);
+    return free_bodies_->sum(positions, targets_, contact_ ? &contact_->counts() : nullptr);
 }
 
-void DescentSubstep::add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions) {
+void DescentSubstep::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
     if (!model_.obstacles) return;
     launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
     model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous);
@@ -66,7 +89,7 @@ void DescentSubstep::add_contacts(std::vector<Launch>& launches, Buffer<float4>&
         launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
 }
 
-void DescentSubstep::add_contact_accesses(Step::Adding& task, int first, int last) {
+void DescentSubstep::add_obstacle_accesses(Step::Adding& task, int first, int last) {
     if (!model_.obstacles) return;
     task.updates(targets_, first, last).reads(*model_.previous, first, last);
 }
@@ -79,11 +102,13 @@ std::pair<int, int> DescentSubstep::vertices(int first_strip, int end_strip) con
 
 Step::Adding DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& region) {
     const auto [first, last] = vertices(region.begin, region.end);
-    return step.add(body, 0, region.begin, region.end, region.id)
-        .reads(*model_.velocities, first, last)
+    auto task = step.add(body, 0, region.begin, region.end, region.id);
+    task.reads(*model_.velocities, first, last)
         .updates(*model_.positions, first, last)
         .updates(*model_.previous, first, last)
         .updates(targets_, first, last);
+    if (contact_) contact_->add_begin_accesses(task, first, last);
+    return task;
 }
 
 void DescentSubstep::add_sum(Step& step, const TaskBody& body, const Region& region,
@@ -93,6 +118,7 @@ void DescentSubstep::add_sum(Step& step, const TaskBody& body, const Region& reg
     auto task = step.add(body, iteration, region.begin, region.end, region.id);
     task.reads(positions, first, last).reads(targets_, first, last);
     free_bodies_->add_sum_accesses(task, region.begin, region.end);
+    if (contact_) task.reads(contact_->counts(), first, last);
 }
 
 Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
@@ -102,8 +128,10 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
     task.reads(*model_.previous, first, last)
         .updates(*model_.velocities, first, last)
         .updates(targets_, first, last);
+    if (contact_) contact_->add_count_accesses(task, first, last);
     if (!free_bodies_) return task.reads(*model_.positions, first, last);
     free_bodies_->add_shift_accesses(task);
+    if (contact_) contact_->add_truncation_accesses(task, first, last);
     return task.updates(*model_.positions, first, last);
 }
 

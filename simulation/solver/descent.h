@@ -6,6 +6,7 @@
 
 #include "runtime/planning/regions.h"
 #include "runtime/step.h"
+#include "simulation/contact/response.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/free_bodies.h"
 
@@ -14,7 +15,8 @@ namespace weft {
 /// How substeps begin and end in all methods that descend E(x); see kernels/descent/substep.h.
 class DescentSubstep {
 public:
-    explicit DescentSubstep(Model& model);
+    /// first_kind: of tasks that are not the solver's own, if there are any
+    DescentSubstep(Model& model, int first_kind);
 
     /// What the first and the last task of a substep launch.
     std::vector<Launch> begin();
@@ -29,10 +31,19 @@ public:
     void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
                  int iteration);
 
-    /// Pushes vertices out of obstacles, as the last thing of an iteration; nothing without any.
-    void add_contacts(std::vector<Launch>& launches, Buffer<float4>& positions);
+    /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
+    void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
     /// What that needs of vertices [first, last), besides the positions.
-    void add_contact_accesses(Step::Adding& task, int first, int last);
+    void add_obstacle_accesses(Step::Adding& task, int first, int last);
+
+    /// What there is besides the solver's own: tasks for momentum, and for contacts.
+    void list_bodies(std::vector<const TaskBody*>& bodies) const;
+    void list_kinds(std::vector<std::string>& kinds) const;
+    std::vector<RowTable*> tables();
+    int kind_of_momentum() const { return first_kind_; }
+
+    /// Contacts between bodies; null: none.
+    ContactResponse* contact() { return contact_.get(); }
 
     /// [vertices] x~; between substeps x - x~, which the next one starts from.
     Buffer<float4>& targets() { return targets_; }
@@ -44,9 +55,11 @@ private:
     void add_shift(std::vector<Launch>& launches);
 
     Model& model_;
+    int first_kind_;
     Buffer<float4> targets_;
-    std::unique_ptr<Buffer<float4>> pushed_;   ///< null: no obstacles
     std::unique_ptr<FreeBodies> free_bodies_;  ///< null: none
+    std::unique_ptr<ContactResponse> contact_;
+    std::unique_ptr<Buffer<float4>> pushed_;  ///< null: nothing pushes
 };
 
 /// Which positions the elements of a range of vertices read.

@@ -123,9 +123,13 @@ bool FreeBodies::reach_into(int first_strip, int end_strip) const {
     return strip_runs_[at(first_strip)] < strip_runs_[at(end_strip)];
 }
 
-std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets) {
-    return {launch(kernels::add_lags, columns_by_strip_, positions, targets, *members_, *shares_,
-                   rows_, partials_),
+std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
+                                    Buffer<int>* contacts) {
+    return {contacts == nullptr
+                ? launch(kernels::add_lags, columns_by_strip_, positions, targets, *members_,
+                         *shares_, rows_, partials_)
+                : launch(kernels::add_lags_and_contacts, columns_by_strip_, positions, targets,
+                         *members_, *shares_, rows_, *contacts, partials_),
             launch(kernels::add_columns, runs_by_strip_, partials_, first_column_, lags_)};
 }
 

@@ -20,7 +20,9 @@ public:
     bool reach_into(int first_strip, int end_strip) const;
 
     /// What adds up the lags of a region's strips,
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
+    /// contacts  [vertices] how many contacts each has: what has any is not free; null: none has
+    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
+                            Buffer<int>* contacts);
     void add_sum_accesses(Step::Adding& task, int first_strip, int end_strip);
     /// and, when all strips have done so, what moves the vertices of a region's strips.
     /// deviations  [vertices] x - x~

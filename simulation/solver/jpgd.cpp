@@ -58,7 +58,7 @@ public:
     explicit JpgdSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model),
+          substep_(model, kMomentum),
           items_(model.strips),
           derivatives_(model, items_),
           energy_(model, substep_.targets()),
@@ -136,7 +136,7 @@ private:
 
     void make_bodies() {
         predict_ = {"predict", kPredict, substep_.begin()};
-        substep_.add_contacts(predict_.launches, *model_.positions);
+        substep_.add_obstacles(predict_.launches, *model_.positions);
         const Segments first{&first_strip_, 0, 1, model_.strips.count()};
         decide_ = {"decide",
                    kDecide,
@@ -154,7 +154,7 @@ private:
             steps_[p] = {"step", kStep, derivatives_.gather_gradients(kInnerPhase, after(parity))};
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
                 body->launches.push_back(descend(parity));
-                substep_.add_contacts(body->launches, after(parity + 1));
+                substep_.add_obstacles(body->launches, after(parity + 1));
             }
         }
         if (substep_.has_free_bodies()) {
@@ -219,7 +219,7 @@ private:
             .reads(residue(iteration), first, last)
             .updates(residue(iteration + 1), first, last);
         derivatives_.add_hessian_accesses(task, first, last, is_fresh);
-        substep_.add_contact_accesses(task, first, last);
+        substep_.add_obstacle_accesses(task, first, last);
     }
 
     void add_velocities(Step& step, const Region& region) {

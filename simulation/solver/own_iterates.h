@@ -21,6 +21,7 @@ public:
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return solver_->state(); }
     std::vector<RowTable*> tables() override { return solver_->tables(); }
+    ContactResponse* contact() override { return solver_->contact(); }
     std::vector<Buffer<float4>*> iterate() override { return solver_->iterate(); }
     int iterate_count() const override { return iterates_.count(); }
     std::vector<const Buffer<float4>*> other_iterates() const override {

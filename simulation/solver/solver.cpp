@@ -1,7 +1,11 @@
 #include "simulation/solver/solver.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
+#include "runtime/error.h"
+#include "simulation/scene/method.h"
 #include "simulation/solver/jpgd.h"
 #include "simulation/solver/newton/newton.h"
 #include "simulation/solver/sosd.h"
@@ -10,7 +14,31 @@
 
 namespace weft {
 
+namespace {
+
+void refuse_contact(const Scene& scene) {
+    if (!scene.contact) return;
+    const Method method = scene.solver.method;
+    const std::string path = scene.path.empty() ? "the scene" : scene.path;
+    if (method != Method::kVbd) {
+        throw UserError(
+            fmt::format("{}: [contact] needs solver.method = \"vbd\"; {} does not know it yet",
+                        path, name_of(method)));
+    }
+    if (!scene.seams.empty() || !scene.attachments.empty()) {
+        throw UserError(path +
+                        ": [contact] does not go with [[seam]] and [[attachment]] yet: it "
+                        "would push apart what they tie together");
+    }
+    if (scene.contact->friction) {
+        throw UserError(path + ": contact.friction is not there yet; leave it out");
+    }
+}
+
+}  // namespace
+
 std::unique_ptr<Solver> make_solver(Model& model) {
+    refuse_contact(model.scene);
     switch (model.scene.solver.method) {
         case Method::kXpbd:
             return make_xpbd_solver(model);

@@ -9,6 +9,8 @@
 
 namespace weft {
 
+class ContactResponse;
+
 /// A way to advance a model by one substep, as tasks. It says what there is to do and in which
 /// order the results are defined; which device does what is the planner's business.
 class Solver : public StepMaker {
@@ -22,6 +24,8 @@ public:
     /// copy of if it shall have an iterate of its own. Tasks access them by elements, not by
     /// tables. None: this solver's parts share all.
     virtual std::vector<Buffer<float4>*> iterate() { return {}; }
+    /// Contacts between bodies; null: this solver knows none, or the scene has none.
+    virtual ContactResponse* contact() { return nullptr; }
     /// Copies of them that parts work on instead.
     virtual std::vector<const Buffer<float4>*> other_iterates() const { return {}; }
     /// What may be done asynchronously, by parts that do not wait for each other.

@@ -2,18 +2,15 @@
 
 namespace weft {
 
-namespace {
-enum Kind { kPredict, kSeams, kStrips, kVelocities, kMomentum };
-}
-
 SweepSolver::SweepSolver(Model& model)
     : model_(model),
-      substep_(model),
+      substep_(model, kKinds),
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
     if (substep_.has_free_bodies()) {
-        momentum_ = {"momentum", kMomentum, substep_.sum_momentum(*model.positions)};
+        momentum_ = {"momentum", substep_.kind_of_momentum(),
+                     substep_.sum_momentum(*model.positions)};
     }
 }
 
@@ -22,17 +19,25 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     Sweep& sweep = *sweeps_.emplace_back(std::make_unique<Sweep>(model_, layout));
     sweep.seams = {"seams", kSeams, {}};
     sweep.strips = {"strips", kStrips, {}};
+    ContactResponse* contact = substep_.contact();
     const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
         TaskBody& body = phase == kSeamPhase ? sweep.seams : sweep.strips;
         body.launches = sweep.derivatives.gather(phase, *model_.positions);
+        if (contact != nullptr) {
+            body.launches.push_back(contact->gather(sweep.items.segments(phase), *model_.positions,
+                                                    sweep.items, sweep.derivatives.sums()));
+        }
         for (Launch& launch : solve({phase, *model_.positions, sweep.items,
                                      sweep.derivatives.sums(), substep_.targets(), inverse_h2})) {
             body.launches.push_back(std::move(launch));
         }
         body.taking_turns = static_cast<int>(body.launches.size());
     }
-    substep_.add_contacts(sweep.strips.launches, *model_.positions);
+    substep_.add_obstacles(sweep.strips.launches, *model_.positions);
+    if (contact == nullptr) return;
+    contact->add_truncation(sweep.strips.launches, *model_.positions);
+    contact->add_snapshot(sweep.strips.launches, *model_.positions);
 }
 
 std::vector<const TaskBody*> SweepSolver::bodies() const {
@@ -43,12 +48,13 @@ std::vector<const TaskBody*> SweepSolver::bodies() const {
     }
     list.push_back(&velocities_);
     if (substep_.has_free_bodies()) list.push_back(&momentum_);
+    substep_.list_bodies(list);
     return list;
 }
 
 std::vector<std::string> SweepSolver::kinds() const {
     std::vector<std::string> names{"predict", "seams", "strips", "velocities"};
-    if (substep_.has_free_bodies()) names.push_back("momentum");
+    substep_.list_kinds(names);
     return names;
 }
 
@@ -65,6 +71,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     const int iterations = model_.scene.solver.iterations;
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+    if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
     for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
     for (const Region& region : regions) {
         if (!substep_.has_free_bodies()) break;
@@ -91,18 +98,25 @@ void SweepSolver::add_seams(Step& step, int iteration, int begin, int end, int r
     const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
     const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
     const auto [halo_begin, halo_end] = halo_.around(first, last);
-    step.add(sweep(iteration).seams, iteration, begin, end, region)
-        .updates(*model_.positions, first, last)
+    auto task = step.add(sweep(iteration).seams, iteration, begin, end, region);
+    task.updates(*model_.positions, first, last)
         .reads(*model_.positions, halo_begin, first)
         .reads(*model_.positions, last, halo_end)
         .reads(substep_.targets(), first, last);
+    if (substep_.contact() == nullptr) return;
+    substep_.contact()->add_gather_accesses(task, iteration, begin, end + 1);
 }
 
 void SweepSolver::add_strips(Step& step, int iteration, int begin, int end, int region) {
     const auto [first, last] = substep_.vertices(begin, end);
     auto task = step.add(sweep(iteration).strips, iteration, begin, end, region);
     task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);
-    substep_.add_contact_accesses(task, first, last);
+    substep_.add_obstacle_accesses(task, first, last);
+    ContactResponse* contact = substep_.contact();
+    if (contact == nullptr) return;
+    contact->add_gather_accesses(task, iteration, begin, end);
+    contact->add_truncation_accesses(task, first, last);
+    contact->add_snapshot_accesses(task, iteration, first, last);
 }
 
 }  // namespace weft

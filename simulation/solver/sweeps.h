@@ -15,7 +15,8 @@ namespace weft {
 ///   seams:  all vertices with elements between two strips, colour by colour: the elements add up
 ///           gradient and Hessian of each vertex, then the method solves its systems
 ///   strips: all vertices inside a strip likewise, then obstacles (all vertices), as in XPBD: an
-///           iteration ends without penetration, and friction sees the whole iteration's slip
+///           iteration ends without penetration, and friction sees the whole iteration's slip;
+///           then what contacts between bodies forbid (contact/response.h)
 /// then the momentum of free bodies, where there are any, and velocities. This order is the same
 /// for every number of devices: it defines the result.
 class SweepSolver : public Solver {
@@ -23,6 +24,8 @@ public:
     std::vector<const TaskBody*> bodies() const override;
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    std::vector<RowTable*> tables() override { return substep_.tables(); }
+    ContactResponse* contact() override { return substep_.contact(); }
     std::vector<Buffer<float4>*> iterate() override;
     Asynchrony asynchrony() const override;
     Step make_step(const Partition& partition) override;
@@ -38,6 +41,7 @@ protected:
     Model& model() { return model_; }
 
 private:
+    enum Kind { kPredict, kSeams, kStrips, kVelocities, kKinds };
     struct Sweep {
         Sweep(const Model& model, const VertexLayout& layout)
             : items(layout), derivatives(model, items) {}

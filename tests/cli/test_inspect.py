@@ -178,3 +178,12 @@ def test_text_names_all_parts():
     assert result.returncode == 0 and result.stderr == ""
     for part in ["tasks", "kernels", "buffers", "datasets", "left out", "rub_on_capsule"]:
         assert part in result.stdout
+
+
+def test_contact_is_left_out_where_there_is_none(inspect):
+    left_out = {entry["what"]: entry for entry in inspect(SHEET)["left_out"]}
+    assert left_out["contact"]["kernels"]
+    touching = inspect(SHEET.replace('"xpbd"', '"vbd"') + "\n[contact]\n")
+    assert "contact" not in {entry["what"] for entry in touching["left_out"]}
+    for found, expected in [(inspect(SHEET), False), (touching, True)]:
+        assert any("contact" in kernel["file"] for kernel in found["kernels"]) == expected

@@ -322,3 +322,27 @@ def test_believable_runs_raise_no_alarm(too_long):
     summary = weft_json("run", "scene.toml", "--device", "cpu/1", "--no-geometry", cwd=too_long)
     assert summary["warnings"] == []
     assert summary["strain_rms"] < 0.05
+
+
+@pytest.fixture
+def crossing(folder):
+    """An upright sheet through a lying one."""
+    upright = SHEET[SHEET.index("[[cloth]]"):].replace('"sheet"', '"upright"')
+    scene = SHEET.replace('"xpbd"', '"vbd"') + upright
+    scene += "rotate = [0, 0, 1, 90]\ntranslate = [0.03, 0.02, 0.01]\n\n[contact]\n"
+    (folder / "scene.toml").write_text(scene)
+    return folder
+
+
+def test_bodies_that_cross_at_the_start_are_refused(crossing):
+    expect_error(run(crossing, "--quiet"), 2, "scene.toml: bodies cross at the start",
+                 "cloth 'sheet' triangle ", "and cloth 'upright' triangle ", "--on-crossing warn")
+    assert not (crossing / "out").exists()
+
+
+def test_a_run_may_go_on_with_bodies_that_cross(crossing):
+    result = run(crossing, "--on-crossing", "warn", "--json")
+    assert result.returncode == 0, result.stderr
+    assert any("triangles cross" in text for text in json.loads(result.stdout)["warnings"])
+    replayed = weft("replay", "out/sheet/trace.h5", "--device", "cpu/1", cwd=crossing)
+    assert replayed.returncode == 0, replayed.stderr

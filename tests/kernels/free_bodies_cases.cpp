@@ -61,6 +61,7 @@ void shift_case(KernelCase& c) {
     auto& deviations = add_points(c, "deviations", c.items);
     auto& velocities = add_points(c, "velocities", c.items);
     auto& shifts = add_points(c, "shifts", 4);
+    for (std::size_t k = 0; k < 3; ++k) shifts[k].w = 0.0f;  // the last body touches something
     auto& runs = add_indices(c, "runs", c.items, 4);
     c.launch = launch(kernels::shift_bodies, c.segments, positions, deviations, velocities, shifts,
                       runs, 240.0f);

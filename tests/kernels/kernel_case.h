@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "runtime/device.h"
 #include "tests/kernels/random.h"
@@ -26,6 +27,7 @@ struct KernelCase {
         auto buffer = std::make_shared<Buffer<T>>(name, static_cast<std::size_t>(count));
         Buffer<T>& reference = *buffer;
         buffers.push_back(std::move(buffer));
+        has_reals.push_back(!std::is_same_v<T, int>);
         return reference;
     }
     /// The one that was added as number `index`, as the type that it has.
@@ -38,6 +40,7 @@ struct KernelCase {
     Flavour flavour;
     Random random;
     std::vector<std::shared_ptr<BufferStorage>> buffers;
+    std::vector<bool> has_reals;  ///< [buffers]
     Buffer<int> segment_begin;
     Segments segments;  ///< the items in strips and colours of many sizes, some empty
     Launch launch;

@@ -68,10 +68,21 @@ void move_pins_case(KernelCase& c) {
                       1, kInstance);
 }
 
-const bool added = add_case("predict", predict_case) &&
-                   add_case("update_velocities", update_case) &&
-                   add_case("update_damped_velocities", update_damped_case) &&
-                   add_case("move_pins", move_pins_case);
+void move_between_case(KernelCase& c) {
+    auto& positions = c.add<float4>("positions", 2 * c.items);
+    auto& vertices = c.add<int>("vertices", c.items);
+    auto& ends = c.add<float4>("ends", 2 * c.items);
+    const std::vector<int> order = c.random.permutation(2 * c.items);
+    for (std::size_t i = 0; i < vertices.count(); ++i) vertices[i] = order[i];
+    for (float4& end : ends.span()) end = c.random.point(1.0f);
+    c.launch = launch(kernels::move_between, c.segments, positions, vertices, ends,
+                      static_cast<int>(c.items), kSubsteps, 1.0f / kSubsteps, kInstance);
+}
+
+const bool added =
+    add_case("predict", predict_case) && add_case("update_velocities", update_case) &&
+    add_case("update_damped_velocities", update_damped_case) &&
+    add_case("move_pins", move_pins_case) && add_case("move_between", move_between_case);
 
 }  // namespace
 }  // namespace weft::test

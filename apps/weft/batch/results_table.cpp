@@ -122,7 +122,8 @@ std::string origin_of(const Run& run) {
     std::string text = run.scene_hash;
     for (std::size_t i = 0; i < run.arguments.size(); ++i) {
         const std::string& word = run.arguments[i];
-        if (word == "--set" || word == "--math" || word == "--on-trouble")
+        if (word == "--set" || word == "--math" || word == "--on-trouble" ||
+            word == "--on-crossing")
             text += '\n' + word + ' ' + run.arguments.at(i + 1);
     }
     return text;

@@ -50,7 +50,7 @@ struct Smoother {
                                            static_cast<float>(1.0 / (model.h * model.h))));
             body.taking_turns = static_cast<int>(body.launches.size());
         }
-        substep.add_contacts(strips.launches, *model.positions);
+        substep.add_obstacles(strips.launches, *model.positions);
     }
     VertexItems items;
     VertexDerivatives derivatives;
@@ -62,7 +62,7 @@ public:
     explicit NewtonSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model),
+          substep_(model, kMomentum),
           gradients_(model, substep_),
           smoother_(model, substep_),
           energy_(model, substep_.targets()),
@@ -137,7 +137,7 @@ private:
         predict_ = {"predict", kPredict, substep_.begin()};
         predict_.launches.push_back(copy(*model_.previous, before));
         predict_.launches.push_back(copy(*model_.previous, after));
-        substep_.add_contacts(predict_.launches, *model_.positions);
+        substep_.add_obstacles(predict_.launches, *model_.positions);
         linearise_ = {"linearise", kLinearise, gradients_.linearise()};
         couple_ = {"coarse", kCoarse, gradients_.coarse().couple(gradients_.linearised_at())};
         factor_ = {"factor", kFactor, gradients_.coarse().factor()};
@@ -162,7 +162,7 @@ private:
                   launch(kernels::move_by_solution, model_.vertices(), before, gradients_.moves(),
                          control_, positions, model_.vertex_count()),
                   copy(positions, after)}};
-        substep_.add_contacts(move_.launches, *model_.positions);
+        substep_.add_obstacles(move_.launches, *model_.positions);
         energy_body_ = {"energy", kEnergy, energy_.launches(*model_.positions)};
         decide_ = {"decide",
                    kDecide,
@@ -275,12 +275,12 @@ private:
                 .updates(after, first, last)
                 .reads(control_, 0, WEFT_CONTROL_SIZE);
             add_columns(task, gradients_.moves(), model_.vertex_count(), 3, first, last, false);
-            add_contact_accesses(task, first, last);
+            add_obstacle_accesses(task, first, last);
         }
     }
 
-    void add_contact_accesses(Step::Adding& task, int first, int last) {
-        substep_.add_contact_accesses(task, first, last);
+    void add_obstacle_accesses(Step::Adding& task, int first, int last) {
+        substep_.add_obstacle_accesses(task, first, last);
     }
 
     void add_sweep(Step& step) {
@@ -293,7 +293,7 @@ private:
                     auto task = step.add(smoother_.strips, number_, begin, end, region.id);
                     task.updates(*model_.positions, first, last)
                         .reads(substep_.targets(), first, last);
-                    add_contact_accesses(task, first, last);
+                    add_obstacle_accesses(task, first, last);
                 });
         }
     }

@@ -36,6 +36,7 @@ const TestScene kScenes[] = {
     {"VbdSewn", kSewn, Method::kVbd, "f27d9c62dc11facf799efb994daafc4f"},
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "f6c35808291ea8c453bfb474677b1d57"},
+    {"VbdTouching", kTouching, Method::kVbd, "a41c737db656c37dbcff280f4fff7270"},
     {"SosdEverything", kEverything, Method::kSosd, "ed15a338b25fa86189688396c68e0c89"},
     {"SosdSolids", kSolids, Method::kSosd, "702bcf436c5866179943171afbf2c300"},
     {"SosdSewn", kSewn, Method::kSosd, "3a597486338ef4b32e92494739bc0f2d"},

@@ -249,4 +249,49 @@ radius = 0.15
 friction = 0.4
 )";
 
+/// A block on a sheet on a net whose one side is carried along, all in contact from the start.
+inline const std::string kTouching = R"(
+[scene]
+frames = 4
+dt = 0.02
+substeps = 4
+
+[solver]
+iterations = 5
+
+[contact]
+thickness = 0.01
+
+[[cloth]]
+name = "net"
+grid = { size = [0.6, 0.6], resolution = [15, 15] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+bend = { stiffness = 1.0e-4 }
+
+[[cloth.pins]]
+edges = ["x-"]
+[[cloth.pins]]
+edges = ["x+"]
+[cloth.pins.motion]
+velocity = [-0.5, 0.2, 0.0]
+
+[[cloth]]
+name = "sheet"
+grid = { size = [0.3, 0.3], resolution = [10, 10] }
+rotate = [0, 1, 0, 20]
+translate = [0.0, 0.012, 0.0]
+density = 0.2
+stretch = { stiffness = 300.0 }
+damping = 0.1
+
+[[solid]]
+name = "block"
+grid = { size = [0.1, 0.1, 0.1], resolution = [3, 3, 3] }
+translate = [0.02, 0.075, 0.01]
+density = 500.0
+young = 2.0e4
+poisson = 0.3
+)";
+
 }  // namespace weft::test

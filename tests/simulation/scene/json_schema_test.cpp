@@ -45,8 +45,9 @@ TEST(JsonSchema, HasOneFormOfObstaclePerShape) {
     }
     std::vector<std::string> shapes;
     for (const ObstacleShape& shape : obstacle_shapes()) shapes.push_back(shape.name);
+    shapes.emplace_back("mesh");
     EXPECT_EQ(forms, shapes);
-    for (const char* promised : {"sphere", "plane", "capsule", "box"}) {
+    for (const char* promised : {"sphere", "plane", "capsule", "box", "mesh"}) {
         EXPECT_EQ(std::ranges::count(forms, promised), 1) << promised;
     }
 }

@@ -46,6 +46,24 @@ TEST(ReadScene, ReadsCloth) {
     EXPECT_FALSE(tube.pins[1].motion);
 }
 
+TEST(ReadScene, ReadsContact) {
+    const std::string text = test::kFullScene;
+    EXPECT_FALSE(parse_scene(text, "s.toml").contact);
+    const Scene bare = parse_scene(text + "\n[contact]\n", "s.toml");
+    ASSERT_TRUE(bare.contact);
+    EXPECT_TRUE(bare.contact->self);
+    EXPECT_EQ(bare.contact->thickness, 0.0);
+    EXPECT_FALSE(bare.contact->friction);
+    EXPECT_EQ(bare.contact->stiffness, Contact{}.stiffness);
+    const Scene full = parse_scene(
+        text + "\n[contact]\nself = false\nthickness = 3e-3\nfriction = 0.3\nstiffness = 2\n",
+        "s.toml");
+    EXPECT_FALSE(full.contact->self);
+    EXPECT_EQ(full.contact->thickness, 3e-3);
+    EXPECT_EQ(full.contact->friction, 0.3);
+    EXPECT_EQ(full.contact->stiffness, 2.0);
+}
+
 TEST(ReadScene, ReadsSolidsMembranesAndAttachments) {
     const Scene scene = parse_scene(test::kFullScene, "full.toml");
     const Solid& brick = scene.solids[0];

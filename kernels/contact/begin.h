@@ -1,0 +1,52 @@
+#ifndef WEFT_KERNELS_CONTACT_BEGIN_H
+#define WEFT_KERNELS_CONTACT_BEGIN_H
+
+#include "kernels/lanes.h"
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+WEFT_KERNELS_BEGIN
+
+/// What contacts are looked for with: where each vertex is, and how far it may get.
+/// positions  [vertices] xyz: of held vertices where they will be [m], w = 1/mass [1/kg]
+/// previous   [vertices] xyz: x_t
+/// targets    [vertices] xyz: x~ of free vertices
+/// goals      [vertices] written: xyz: where inertia, or the scene, leads; w = 1/mass
+/// anchors    [vertices] written: xyz: x_t, w: the radius of the ball in which it stays [m]
+/// led        [1] the farthest that the scene leads a held vertex [m]: so far others may be pushed
+/// margin     by which it may go farther than that and its inertia [m]
+/// most       that it may go [m]
+WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* previous,
+            WEFT_GLOBAL const float4* targets, WEFT_GLOBAL float4* goals,
+            WEFT_GLOBAL float4* anchors, WEFT_GLOBAL const float* led, float margin, float most) {
+    const real4 x = load4(positions, i);
+    const real3 anchor = xyz(load4(previous, i));
+    const real4 target = load4(targets, i);
+    const mask moves = x.w > splat(0.0f);
+    const real3 goal =
+        make3(moves ? target.x : x.x, moves ? target.y : x.y, moves ? target.z : x.z);
+    const real way = length3(subtract(goal, anchor));
+    const real pushed = moves ? splat(led[0]) : splat(0.0f);
+    store4(goals, i, with_w(goal, x.w));
+    store4(anchors, i, with_w(anchor, smaller(way, splat(most)) + splat(margin) + pushed));
+}
+
+/// In how many substeps of the frame contacts took each vertex back, and in how many it could not
+/// be put where all of them allow it to be.
+/// cut     [vertices] 1 where they took it back in this one, 2 where there was no such place
+/// counts  [2 * vertices] written: of both
+WEFT_KERNEL(count_cut, WEFT_GLOBAL const int* cut, WEFT_GLOBAL int* counts, int vertex_count,
+            int instance) {
+    const whole none = splat_whole(0);
+    const whole one = splat_whole(1);
+    const whole now = load_whole(cut, i);
+    const item second = column(i, vertex_count, 1);
+    const whole before = instance == 0 ? none : load_whole(counts, i);
+    const whole lost_before = instance == 0 ? none : load_whole(counts, second);
+    store_whole(counts, i, before + (now > none ? one : none));
+    store_whole(counts, second, lost_before + (now > one ? one : none));
+}
+
+WEFT_KERNELS_END
+
+#endif

@@ -1,0 +1,187 @@
+#ifndef WEFT_KERNELS_CONTACT_BOXES_H
+#define WEFT_KERNELS_CONTACT_BOXES_H
+
+// Boxes around all places that vertices may reach in a substep, half of the thickness beyond: of
+// patches of a surface (simulation/contact/surface.h), of groups of them, and of strips. Unions
+// are exact, so what is in a box is in all boxes above it.
+
+#include "kernels/columns.h"
+#include "kernels/lanes.h"
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+WEFT_KERNELS_BEGIN
+
+typedef struct {
+    real3 low, high;
+} real_box;
+
+WEFT_INLINE real_box empty_box(void) {
+    const real far = splat(3e38f);
+    real_box box;
+    box.low = make3(far, far, far);
+    box.high = make3(-far, -far, -far);
+    return box;
+}
+
+/// The ball that a vertex stays in, and the margin. anchor: xyz, w = the ball's radius
+WEFT_INLINE real_box box_of(real4 anchor, real margin) {
+    const real q = anchor.w + margin;
+    real_box box;
+    box.low = make3(anchor.x - q, anchor.y - q, anchor.z - q);
+    box.high = make3(anchor.x + q, anchor.y + q, anchor.z + q);
+    return box;
+}
+
+WEFT_INLINE real_box united(real_box a, real_box b) {
+    real_box box;
+    box.low =
+        make3(smaller(b.low.x, a.low.x), smaller(b.low.y, a.low.y), smaller(b.low.z, a.low.z));
+    box.high =
+        make3(larger(b.high.x, a.high.x), larger(b.high.y, a.high.y), larger(b.high.z, a.high.z));
+    return box;
+}
+
+/// Brings the anchors into the order of the surface.
+/// anchors    [model vertices] xyz [m], w = how far the vertex may get from there [m]
+/// vertices   [items] the model's
+/// points     [items] written
+WEFT_KERNEL(place_points, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* vertices,
+            WEFT_GLOBAL float4* points) {
+    store4(points, i, gather4(anchors, load_index(vertices, i)));
+}
+
+/// Boxes of patches.
+/// hull_begin  [items + 1] where the vertices of each begin in `hulls`; none has none
+/// hulls       model vertices
+/// low, high   [items] written; w of high: the largest reach of its vertices [m]
+/// margin      [m]
+WEFT_KERNEL(enclose_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* hull_begin,
+            WEFT_GLOBAL const int* hulls, WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high,
+            float margin) {
+    const whole begin = load_whole(hull_begin, i);
+    const whole last = load_whole(hull_begin, column(i, 1, 1)) - splat_whole(1);
+    const int longest = largest_whole(last - begin) + 1;
+    real_box box = empty_box();
+    real reach = splat(0.0f);
+    for (int k = 0; k < longest; ++k) {
+        const integer entry = address(smaller_whole(begin + splat_whole(k), last));
+        const real4 x = gather4(anchors, address(gather_whole(hulls, entry)));
+        box = united(box, box_of(x, splat(margin)));
+        reach = larger(x.w, reach);
+    }
+    store4(low, i, with_w(box.low, splat(0.0f)));
+    store4(high, i, with_w(box.high, reach));
+}
+
+/// Boxes around boxes.
+/// child_begin          [items + 1] where the children of each begin
+/// child_low, child_high  boxes
+/// low, high            [items] written
+WEFT_KERNEL(enclose_boxes, WEFT_GLOBAL const int* child_begin, WEFT_GLOBAL const float4* child_low,
+            WEFT_GLOBAL const float4* child_high, WEFT_GLOBAL float4* low,
+            WEFT_GLOBAL float4* high) {
+    const whole begin = load_whole(child_begin, i);
+    const whole count = load_whole(child_begin, column(i, 1, 1)) - begin;
+    const int longest = largest_whole(count);
+    real_box box = empty_box();
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const integer child = address(on ? begin + splat_whole(k) : splat_whole(0));
+        real_box of_child;
+        of_child.low = xyz(gather4(child_low, child));
+        of_child.high = xyz(gather4(child_high, child));
+        const real_box both_boxes = united(box, of_child);
+        box.low.x = on ? both_boxes.low.x : box.low.x;
+        box.low.y = on ? both_boxes.low.y : box.low.y;
+        box.low.z = on ? both_boxes.low.z : box.low.z;
+        box.high.x = on ? both_boxes.high.x : box.high.x;
+        box.high.y = on ? both_boxes.high.y : box.high.y;
+        box.high.z = on ? both_boxes.high.z : box.high.z;
+    }
+    store4(low, i, with_w(box.low, splat(0.0f)));
+    store4(high, i, with_w(box.high, splat(0.0f)));
+}
+
+/// A corner of a triangle each, in column-major tables.
+WEFT_INLINE real4 gather_corner(WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* corners,
+                                whole entry) {
+    return gather4(anchors, address(gather_whole(corners, address(entry))));
+}
+
+/// Which way patches face, and whether each is flat and quiet: its normals lie within 30 degrees of
+/// their mean, and no vertex gets so far that a triangle could turn over.
+/// face_begin  [items + 1] where the faces of each begin (Surface::faces)
+/// corners     [3 * face_count] column-major: model vertices
+/// high        [items] as enclose_patches leaves it
+/// quiet       [items] how far vertices may get [m]
+/// tilts       [items] written: where it is flat and quiet xyz = the mean of the normals, of length
+///             1, and w = 1; else 0
+WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* face_begin,
+            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts, int face_count) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const whole begin = load_whole(face_begin, i);
+    const whole count = load_whole(face_begin, column(i, 1, 1)) - begin;
+    const real limit = load(quiet, i);
+    // What is not quiet by itself need not be looked at.
+    const mask may_be = load4(high, i).w < limit;
+    const int longest = any_item(may_be) ? largest_whole(count) : 0;
+    real3 mean = make3(zero, zero, zero);
+    real flat = may_be ? one : zero;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const whole entry = on ? begin + splat_whole(k) : splat_whole(0);
+            const real4 a = gather_corner(anchors, corners, entry);
+            const real4 b = gather_corner(anchors, corners, entry + splat_whole(face_count));
+            const real4 c = gather_corner(anchors, corners, entry + splat_whole(2 * face_count));
+            const real3 normal = cross3(subtract(xyz(b), xyz(a)), subtract(xyz(c), xyz(a)));
+            if (pass == 0) {
+                mean = add_scaled(mean, normal, on ? one : zero);
+                const real still = larger(a.w, larger(b.w, c.w)) < limit ? flat : zero;
+                flat = on ? still : flat;
+            } else {
+                // cos^2 30 degrees = 3/4; the mean has length 1 by now.
+                const real along = dot3(normal, mean);
+                const mask leans = along * along < splat(0.75f) * dot3(normal, normal);
+                const real upright = along > zero ? (leans ? zero : flat) : zero;
+                flat = on ? upright : flat;
+            }
+        }
+        if (pass == 0) mean = scale(mean, one / divisor(length3(mean)));
+    }
+    const mask is_flat = flat > zero;
+    mean = make3(is_flat ? mean.x : zero, is_flat ? mean.y : zero, is_flat ? mean.z : zero);
+    store4(tilts, i, with_w(mean, flat));
+}
+
+/// Boxes of triangles and of edges, where their patch is near another one or itself.
+/// points      [vertices] xyz [m], w = reach [m]
+/// corners     [corner_count * item_count] column-major
+/// patches     [items] whose each is
+/// near_counts [patches] how many patches are near
+/// low, high   [items] written; w of high: the largest reach of the corners [m]
+WEFT_KERNEL(enclose_primitives, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* corners,
+            WEFT_GLOBAL const int* patches, WEFT_GLOBAL const int* near_counts,
+            WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high, float margin, int corner_count,
+            int item_count) {
+    const whole near = gather_whole(near_counts, address(load_whole(patches, i)));
+    const mask on = near > splat_whole(0);
+    if (any_item(on)) {
+        real_box box = empty_box();
+        real reach = splat(0.0f);
+        for (int k = 0; k < corner_count; ++k) {
+            const real4 x = gather4(points, load_index(corners, column(i, item_count, k)));
+            box = united(box, box_of(x, splat(margin)));
+            reach = larger(x.w, reach);
+        }
+        store4_where(on, low, i, with_w(box.low, splat(0.0f)));
+        store4_where(on, high, i, with_w(box.high, reach));
+    }
+}
+
+WEFT_KERNELS_END
+
+#endif

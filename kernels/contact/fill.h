@@ -1,0 +1,359 @@
+#ifndef WEFT_KERNELS_CONTACT_FILL_H
+#define WEFT_KERNELS_CONTACT_FILL_H
+
+// From the pairs of primitives that detection found to rows of contacts and planes, one per vertex.
+// Each vertex computes all of its contacts itself, in the order of operands that all four vertices
+// of a contact use: so all four see the same numbers.
+
+#include "kernels/columns.h"
+#include "kernels/contact/closest.h"
+#include "kernels/contact/rows.h"
+
+/// A pair is a contact that may push if it gets nearer than so many ranges.
+#define WEFT_CONTACT_MARGIN 1.25f
+
+WEFT_KERNELS_BEGIN
+
+/// What the scene says of contacts.
+typedef struct {
+    float range;      ///< where they begin to push [m]
+    float slack;      ///< what planes leave between surfaces [m]
+    float stiffness;  ///< of a contact, times the least of its vertices' [-]
+} contact_settings;
+
+/// The four vertices of a pair where it was found, and where inertia leads them.
+typedef struct {
+    real3 x0, x1, x2, x3;                 ///< [m]
+    real3 way0, way1, way2, way3;         ///< [m]
+    real moves0, moves1, moves2, moves3;  ///< 1, or 0 where held
+    real least;                           ///< stiffness of one that moves [N/m]
+} contact_pair;
+
+/// corners  whole numbers of the vertices
+WEFT_INLINE contact_pair load_pair(WEFT_GLOBAL const float4* anchors,
+                                   WEFT_GLOBAL const float4* goals,
+                                   WEFT_GLOBAL const float* stiffness, integer c0, integer c1,
+                                   integer c2, integer c3) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const real4 g0 = gather4(goals, c0);
+    const real4 g1 = gather4(goals, c1);
+    const real4 g2 = gather4(goals, c2);
+    const real4 g3 = gather4(goals, c3);
+    contact_pair p;
+    p.x0 = xyz(gather4(anchors, c0));
+    p.x1 = xyz(gather4(anchors, c1));
+    p.x2 = xyz(gather4(anchors, c2));
+    p.x3 = xyz(gather4(anchors, c3));
+    p.way0 = subtract(xyz(g0), p.x0);
+    p.way1 = subtract(xyz(g1), p.x1);
+    p.way2 = subtract(xyz(g2), p.x2);
+    p.way3 = subtract(xyz(g3), p.x3);
+    p.moves0 = g0.w > zero ? one : zero;
+    p.moves1 = g1.w > zero ? one : zero;
+    p.moves2 = g2.w > zero ? one : zero;
+    p.moves3 = g3.w > zero ? one : zero;
+    p.least = smaller(smaller(gather(stiffness, c0), gather(stiffness, c1)),
+                      smaller(gather(stiffness, c2), gather(stiffness, c3)));
+    return p;
+}
+
+/// The most that one of two vertices goes towards the other side; if both shall count, or the
+/// first alone.
+WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat(0.0f)); }
+
+/// Where the plane between the two sides ends, from the closest point of B on, along n. Both sides
+/// get of the gap by how fast they come. What is led by the scene comes as far as it wants: the
+/// plane goes before it.
+/// distance     of the two sides [m]
+/// a, b         the most that vertices of a side come nearer [m]
+/// led_a, led_b  likewise, of held vertices alone
+/// least        what is left to share where there is nothing [m]
+WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b, real least) {
+    const real both_ways = (a - led_a) + (b - led_b);
+    const real part = (b - led_b) / larger(both_ways, splat(1e-12f));
+    const real bounded = smaller(larger(part, splat(0.05f)), splat(0.95f));
+    const real share = both_ways > splat(1e-9f) ? bounded : splat(0.5f);
+    return led_b + share * larger(distance - led_a - led_b, least);
+}
+
+/// A contact as all of its vertices see it.
+typedef struct {
+    real3 normal;  ///< from B to A
+    real4 weights;
+    real distance;   ///< [m]
+    real ahead;      ///< the gap where inertia leads [m]
+    real spread;     ///< the sum of |w| of vertices that move
+    real4 room;      ///< of each vertex before its plane [m]
+    real stiffness;  ///< [N/m]
+} contact_found;
+
+WEFT_INLINE real size_of(real a) { return larger(a, -a); }
+
+/// is_edges  1: x0 x1 and x2 x3 are edges; 0: x0 is a vertex and x1 x2 x3 a triangle
+WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_settings settings) {
+    const real zero = splat(0.0f);
+    closest_points closest;
+    if (is_edges)
+        closest = closest_edges(p.x0, p.x1, p.x2, p.x3);
+    else
+        closest = closest_vertex_triangle(p.x0, p.x1, p.x2, p.x3);
+    contact_found f;
+    const real4 w = closest.weights;
+    f.weights = w;
+    f.distance = square_root(closest.square);
+    f.normal = scale(closest.way, splat(1.0f) / divisor(f.distance));
+    const real go0 = dot3(f.normal, p.way0);
+    const real go1 = dot3(f.normal, p.way1);
+    const real go2 = dot3(f.normal, p.way2);
+    const real go3 = dot3(f.normal, p.way3);
+    f.ahead = f.distance + (w.x * go0 + w.y * go1 + w.z * go2 + w.w * go3);
+    f.spread = size_of(w.x) * p.moves0 + size_of(w.y) * p.moves1 + size_of(w.z) * p.moves2 +
+               size_of(w.w) * p.moves3;
+    f.stiffness = splat(settings.stiffness) * p.least;
+
+    // Heights over x0 along n: of the corners, and of the closest points.
+    const real h1 = dot3(f.normal, subtract(p.x1, p.x0));
+    const real h2 = dot3(f.normal, subtract(p.x2, p.x0));
+    const real h3 = dot3(f.normal, subtract(p.x3, p.x0));
+    const real led0 = (splat(1.0f) - p.moves0) * go0;
+    const real led1 = (splat(1.0f) - p.moves1) * go1;
+    const real led2 = (splat(1.0f) - p.moves2) * go2;
+    const real led3 = (splat(1.0f) - p.moves3) * go3;
+    const real b23 = approach_of(go2, go3);
+    const real led23 = approach_of(led2, led3);
+    const real least = smaller(splat(settings.slack), splat(0.25f) * f.distance);
+    if (is_edges) {
+        const real end = plane_end(f.distance, approach_of(-go0, -go1), b23,
+                                   approach_of(-led0, -led1), led23, least);
+        const real top = w.y * h1;
+        const real over = f.distance - end - top;
+        const real under = end - w.z * h2 - w.w * h3;
+        f.room.x = over;
+        f.room.y = over + h1;
+        f.room.z = under - h2;
+        f.room.w = under - h3;
+    } else {
+        const real end = plane_end(f.distance, approach_of(-go0, zero), larger(b23, go1),
+                                   approach_of(-led0, zero), larger(led23, led1), least);
+        const real under = end - w.y * h1 - w.z * h2 - w.w * h3;
+        f.room.x = f.distance - end;
+        f.room.y = under - h1;
+        f.room.z = under - h2;
+        f.room.w = under - h3;
+    }
+    return f;
+}
+
+WEFT_INLINE whole half_of(whole w) { return w >> splat_whole(1); }
+
+/// A vertex' rows while they are filled.
+typedef struct {
+    whole planes, contacts;  ///< how many there are
+    real least;              ///< room before a plane [m]
+    real nearest;            ///< distance of a contact [m]
+} contact_rows;
+
+/// Adds what the pair of these four vertices is to one of them.
+/// is_on, pushes  for which items there is a pair at all, and one that may push
+/// others as in fill_contacts
+WEFT_INLINE contact_rows add_contact(
+    contact_rows row, mask is_on, mask pushes, whole vertex, whole c0, whole c1, whole c2, whole c3,
+    int is_edges, contact_settings settings, WEFT_GLOBAL const float4* anchors,
+    WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const float* stiffness, whole plane_start,
+    whole plane_room, WEFT_GLOBAL float4* planes, whole start, whole room, WEFT_GLOBAL int* corner0,
+    WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2, WEFT_GLOBAL int* corner3,
+    WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights, WEFT_GLOBAL float4* measures) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const contact_pair p =
+        load_pair(anchors, goals, stiffness, address(c0), address(c1), address(c2), address(c3));
+    const contact_found f = find_contact(p, is_edges, settings);
+    const mask is0 = vertex == c0;
+    const mask is1 = vertex == c1;
+    const mask is2 = vertex == c2;
+    const real side1 = is_edges ? one : -one;
+    const real side = is0 ? one : (is1 ? side1 : -one);
+    const real w = is0 ? f.weights.x : (is1 ? f.weights.y : (is2 ? f.weights.z : f.weights.w));
+    const real before = is0 ? f.room.x : (is1 ? f.room.y : (is2 ? f.room.z : f.room.w));
+    const real3 away = scale(f.normal, side);
+
+    // Where they touch there is no direction between them.
+    const mask is_apart = both(is_on, f.distance > splat(1e-12f));
+    const mask plane_fits = both(is_apart, row.planes < plane_room);
+    scatter4_where(plane_fits, planes, address(plane_start + row.planes * WEFT_CONTACT_STRIDE),
+                   with_w(away, before));
+    row.planes = is_apart ? row.planes + splat_whole(1) : row.planes;
+    row.least = is_apart ? smaller(row.least, before) : row.least;
+    row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
+
+    const real own = side * w;
+    const real closest = smaller(f.distance, f.ahead);
+    const mask may_push =
+        both(both(is_apart, pushes),
+             both(closest<splat(WEFT_CONTACT_MARGIN * settings.range), own> zero));
+    const mask fits = both(may_push, row.contacts < room);
+    const integer entry = address(start + row.contacts * WEFT_CONTACT_STRIDE);
+    scatter_whole_where(fits, corner0, entry, c0);
+    scatter_whole_where(fits, corner1, entry, c1);
+    scatter_whole_where(fits, corner2, entry, c2);
+    scatter_whole_where(fits, corner3, entry, c3);
+    real4 signed_weights = {f.weights.x * side, f.weights.y * side, f.weights.z * side,
+                            f.weights.w * side};
+    real4 measure = {own, own * f.spread, f.stiffness, splat(settings.range)};
+    scatter4_where(fits, normals, entry, with_w(away, f.ahead));
+    scatter4_where(fits, weights, entry, signed_weights);
+    scatter4_where(fits, measures, entry, measure);
+    row.contacts = may_push ? row.contacts + splat_whole(1) : row.contacts;
+    return row;
+}
+
+/// Fills the rows of each vertex: from pairs with itself, with its triangles, with its edges.
+/// anchors     [vertices] xyz: where pairs were found [m]
+/// goals       [vertices] xyz: where inertia, or the scene, leads them [m]; w = 1/mass [1/kg]
+/// stiffness   [vertices] what a contact's is measured by [N/m]
+/// surface     [vertices] the number as a vertex of the surface, and one more; 0 inside a body
+/// triangle_begin, triangle_list   [surface vertices + 1], [entries] which triangles it has
+/// edge_begin, edge_list           likewise its edges
+/// triangles   [3 * triangles] column-major: their vertices
+/// edges       [2 * edges] likewise
+/// apexes      [surface vertices] the vertex of each
+/// vt_rows, vt_counts, vt_others   per surface vertex 2 * triangle + 1 where the pair pushes, else
+///                                 2 * triangle (runtime/row_table.h)
+/// tv_rows ... per triangle surface vertices; ee_rows ... per edge edges, as doubled
+/// plane_rows, plane_counts, plane_needs, planes      written; see truncate.h
+/// rows, counts, needs, corner0 to 3, normals, weights, measures  written; see rows.h
+/// least       [vertices] written: the least room before its planes [m]
+/// nearest     [vertices] written: the least distance of its pairs since instance 0 [m]
+WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
+            WEFT_GLOBAL const float* stiffness, WEFT_GLOBAL const int* surface,
+            WEFT_GLOBAL const int* triangle_begin, WEFT_GLOBAL const int* triangle_list,
+            WEFT_GLOBAL const int* edge_begin, WEFT_GLOBAL const int* edge_list,
+            WEFT_GLOBAL const int* triangles, WEFT_GLOBAL const int* edges,
+            WEFT_GLOBAL const int* apexes, WEFT_GLOBAL const int* vt_rows,
+            WEFT_GLOBAL const int* vt_counts, WEFT_GLOBAL const int* vt_others,
+            WEFT_GLOBAL const int* tv_rows, WEFT_GLOBAL const int* tv_counts,
+            WEFT_GLOBAL const int* tv_others, WEFT_GLOBAL const int* ee_rows,
+            WEFT_GLOBAL const int* ee_counts, WEFT_GLOBAL const int* ee_others,
+            WEFT_GLOBAL const int* plane_rows, WEFT_GLOBAL int* plane_counts,
+            WEFT_GLOBAL int* plane_needs, WEFT_GLOBAL float4* planes, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* corner0,
+            WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2, WEFT_GLOBAL int* corner3,
+            WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights, WEFT_GLOBAL float4* measures,
+            WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest, int vertex_count,
+            int triangle_count, int edge_count, float range, float slack, float factor,
+            int instance) {
+    const whole one = splat_whole(1);
+    const whole none = splat_whole(0);
+    contact_settings settings;
+    settings.range = range;
+    settings.slack = slack;
+    settings.stiffness = factor;
+    const whole vertex = item_numbers(i);
+    const whole place = load_whole(surface, i);
+    const mask is_outside = place > none;
+    const whole apex = is_outside ? place - one : none;
+    const whole plane_start = load_whole(plane_rows, i);
+    const whole plane_room = load_whole(plane_rows, column(i, vertex_count, 1));
+    const whole start = load_whole(rows, i);
+    const whole room = load_whole(rows, column(i, vertex_count, 1));
+    contact_rows row = {none, none, splat(1e30f), splat(1e30f)};
+
+    const real free = load4(goals, i).w;
+    const mask moves = both(is_outside, free > splat(0.0f));
+    const whole own = gather_whole(vt_counts, address(apex));
+    const whole own_count = moves ? own : none;
+    const whole own_start = gather_whole(vt_rows, address(apex));
+    const int own_longest = largest_whole(own_count);
+    for (int k = 0; k < own_longest; ++k) {
+        const mask is_on = splat_whole(k) < own_count;
+        const integer entry =
+            address(is_on ? own_start + splat_whole(WEFT_CONTACT_STRIDE * k) : own_start);
+        const whole code = is_on ? gather_whole(vt_others, entry) : none;
+        const whole t = half_of(code);
+        const mask pushes = code > t + t;
+        const whole c1 = gather_whole(triangles, address(t));
+        const whole c2 = gather_whole(triangles, address(t + splat_whole(triangle_count)));
+        const whole c3 = gather_whole(triangles, address(t + splat_whole(2 * triangle_count)));
+        row = add_contact(row, is_on, pushes, vertex, vertex, c1, c2, c3, 0, settings, anchors,
+                          goals, stiffness, plane_start, plane_room, planes, start, room, corner0,
+                          corner1, corner2, corner3, normals, weights, measures);
+    }
+
+    const whole first_triangle = gather_whole(triangle_begin, address(apex));
+    const whole end_triangle = gather_whole(triangle_begin, address(apex + one));
+    const whole triangles_here = moves ? end_triangle - first_triangle : none;
+    const int most_triangles = largest_whole(triangles_here);
+    for (int n = 0; n < most_triangles; ++n) {
+        const mask has = splat_whole(n) < triangles_here;
+        const whole from = has ? first_triangle + splat_whole(n) : none;
+        const whole t = gather_whole(triangle_list, address(from));
+        const whole found = gather_whole(tv_counts, address(t));
+        const whole count = has ? found : none;
+        const int longest = largest_whole(count);
+        if (longest > 0) {
+            const whole t_start = gather_whole(tv_rows, address(t));
+            const whole c1 = gather_whole(triangles, address(t));
+            const whole c2 = gather_whole(triangles, address(t + splat_whole(triangle_count)));
+            const whole c3 = gather_whole(triangles, address(t + splat_whole(2 * triangle_count)));
+            for (int k = 0; k < longest; ++k) {
+                const mask is_on = splat_whole(k) < count;
+                const integer entry =
+                    address(is_on ? t_start + splat_whole(WEFT_CONTACT_STRIDE * k) : t_start);
+                const whole code = is_on ? gather_whole(tv_others, entry) : none;
+                const whole other = half_of(code);
+                const mask pushes = code > other + other;
+                const whole c0 = gather_whole(apexes, address(other));
+                row = add_contact(row, is_on, pushes, vertex, c0, c1, c2, c3, 0, settings, anchors,
+                                  goals, stiffness, plane_start, plane_room, planes, start, room,
+                                  corner0, corner1, corner2, corner3, normals, weights, measures);
+            }
+        }
+    }
+
+    const whole first_edge = gather_whole(edge_begin, address(apex));
+    const whole end_edge = gather_whole(edge_begin, address(apex + one));
+    const whole edges_here = moves ? end_edge - first_edge : none;
+    const int most_edges = largest_whole(edges_here);
+    for (int n = 0; n < most_edges; ++n) {
+        const mask has = splat_whole(n) < edges_here;
+        const whole from = has ? first_edge + splat_whole(n) : none;
+        const whole e = gather_whole(edge_list, address(from));
+        const whole found = gather_whole(ee_counts, address(e));
+        const whole count = has ? found : none;
+        const int longest = largest_whole(count);
+        if (longest > 0) {
+            const whole e_start = gather_whole(ee_rows, address(e));
+            for (int k = 0; k < longest; ++k) {
+                const mask is_on = splat_whole(k) < count;
+                const integer entry =
+                    address(is_on ? e_start + splat_whole(WEFT_CONTACT_STRIDE * k) : e_start);
+                const whole code = is_on ? gather_whole(ee_others, entry) : none;
+                const whole other = half_of(code);
+                const mask pushes = code > other + other;
+                const whole low = smaller_whole(e, other);
+                const whole high = larger_whole(e, other);
+                const whole c0 = gather_whole(edges, address(low));
+                const whole c1 = gather_whole(edges, address(low + splat_whole(edge_count)));
+                const whole c2 = gather_whole(edges, address(high));
+                const whole c3 = gather_whole(edges, address(high + splat_whole(edge_count)));
+                row = add_contact(row, is_on, pushes, vertex, c0, c1, c2, c3, 1, settings, anchors,
+                                  goals, stiffness, plane_start, plane_room, planes, start, room,
+                                  corner0, corner1, corner2, corner3, normals, weights, measures);
+            }
+        }
+    }
+
+    store_whole(plane_counts, i, smaller_whole(row.planes, plane_room));
+    store_whole(counts, i, smaller_whole(row.contacts, room));
+    store_whole(plane_needs, i,
+                instance == 0 ? row.planes : larger_whole(row.planes, load_whole(plane_needs, i)));
+    store_whole(needs, i,
+                instance == 0 ? row.contacts : larger_whole(row.contacts, load_whole(needs, i)));
+    store(least, i, row.least);
+    store(nearest, i, instance == 0 ? row.nearest : smaller(row.nearest, load(nearest, i)));
+}
+
+WEFT_KERNELS_END
+
+#endif

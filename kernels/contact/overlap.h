@@ -1,0 +1,74 @@
+#ifndef WEFT_KERNELS_CONTACT_OVERLAP_H
+#define WEFT_KERNELS_CONTACT_OVERLAP_H
+
+// Boxes against boxes: one box against those of all items at hand, first together, then one by one.
+
+#include "kernels/contact/boxes.h"
+#include "kernels/lanes.h"
+#include "kernels/platform.h"
+#include "kernels/vector.h"
+
+/// Between the entries of one row: rows lie in slices of 8 items, as in kernels/descent/rows.h.
+#define WEFT_ROW_STRIDE 8
+
+WEFT_KERNELS_BEGIN
+
+typedef struct {
+    float low_x, low_y, low_z, high_x, high_y, high_z;
+} float_box;
+
+/// Around the boxes of all items at hand.
+WEFT_INLINE float_box around_all(real_box box) {
+    float_box all;
+    all.low_x = smallest_real(box.low.x);
+    all.low_y = smallest_real(box.low.y);
+    all.low_z = smallest_real(box.low.z);
+    all.high_x = largest_real(box.high.x);
+    all.high_y = largest_real(box.high.y);
+    all.high_z = largest_real(box.high.z);
+    return all;
+}
+
+WEFT_INLINE int meets(float_box a, float4 low, float4 high) {
+    return a.low_x <= high.x && a.high_x >= low.x && a.low_y <= high.y && a.high_y >= low.y &&
+           a.low_z <= high.z && a.high_z >= low.z;
+}
+
+WEFT_INLINE mask overlaps(real_box a, float4 low, float4 high) {
+    const mask x = both(a.low.x <= splat(high.x), a.high.x >= splat(low.x));
+    const mask y = both(a.low.y <= splat(high.y), a.high.y >= splat(low.y));
+    const mask z = both(a.low.z <= splat(high.z), a.high.z >= splat(low.z));
+    return both(x, both(y, z));
+}
+
+/// Where the rows of the items at hand lie, and how long they are by now.
+typedef struct {
+    whole start, room, count;
+} open_rows;
+
+WEFT_INLINE open_rows open_rows_of(WEFT_GLOBAL const int* rows, item i, int item_count) {
+    open_rows row = {load_whole(rows, i), load_whole(rows, column(i, item_count, 1)),
+                     splat_whole(0)};
+    return row;
+}
+
+/// Another entry in the rows that `on` holds for, where there is room.
+WEFT_INLINE open_rows with_entry(open_rows row, mask on, WEFT_GLOBAL int* others, whole entry) {
+    const integer place = address(row.start + row.count * splat_whole(WEFT_ROW_STRIDE));
+    scatter_whole_where(both(on, row.count < row.room), others, place, entry);
+    row.count = on ? row.count + splat_whole(1) : row.count;
+    return row;
+}
+
+/// counts  [items] written: entries that each row has
+/// needs   [items] the most that a row should have had room for since instance 0
+WEFT_INLINE void close_rows(open_rows row, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, item i,
+                            int instance) {
+    store_whole(counts, i, smaller_whole(row.count, row.room));
+    store_whole(needs, i,
+                instance == 0 ? row.count : larger_whole(row.count, load_whole(needs, i)));
+}
+
+WEFT_KERNELS_END
+
+#endif

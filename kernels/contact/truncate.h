@@ -1,0 +1,123 @@
+#ifndef WEFT_KERNELS_CONTACT_TRUNCATE_H
+#define WEFT_KERNELS_CONTACT_TRUNCATE_H
+
+#include "kernels/contact/truncation.h"
+
+/// Rounds of taking out what leads through planes, before the rest of the way is scaled.
+#define WEFT_KEEPING_ROUNDS 3
+
+WEFT_KERNELS_BEGIN
+
+/// The end of a way, and how much the foothold lacks to be before all planes [m], if it does.
+typedef struct {
+    real3 way;
+    real lack;
+} kept_way;
+
+/// A way within a vertex' ball and before all its planes.
+/// start, count  the vertex' row of planes
+/// foothold      from which the planes let go on
+WEFT_INLINE kept_way way_before(WEFT_GLOBAL const float4* planes, whole start, whole count,
+                                real3 foothold, real3 way, float soft, float hard) {
+    const int longest = largest_whole(count);
+    for (int round = 0; round < WEFT_KEEPING_ROUNDS; ++round) {
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const integer entry =
+                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const real4 plane = gather4(planes, entry);
+            const real room = room_before(plane.w, splat(soft));
+            const real3 kept = keep_before(way, xyz(plane), on ? room : splat(1e30f));
+            way = kept;
+        }
+    }
+    real share = splat(1.0f);
+    real lack = splat(0.0f);
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const real4 plane = gather4(planes, entry);
+        const real room = room_before(plane.w, splat(hard));
+        const real part = share_before(foothold, way, xyz(plane), room);
+        share = on ? smaller(share, part) : share;
+        const real missing = -(dot3(foothold, xyz(plane)) + room);
+        lack = on ? larger(lack, missing) : lack;
+    }
+    kept_way kept = {between3(foothold, way, share), lack};
+    return kept;
+}
+
+/// Where planes come over a vertex' anchor: how far it has to make way for them. Zero elsewhere.
+WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start, whole count) {
+    const real zero = splat(0.0f);
+    real3 way = make3(zero, zero, zero);
+    const int longest = largest_whole(count);
+    for (int round = 0; round < WEFT_KEEPING_ROUNDS; ++round) {
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const integer entry =
+                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const real4 plane = gather4(planes, entry);
+            way = keep_before(way, xyz(plane), on ? plane.w : splat(1e30f));
+        }
+    }
+    return way;
+}
+
+/// The last word about positions: takes vertices back to where no contact forbids them to be.
+/// positions  [vertices] xyz [m], w = 1/mass [1/kg]; written where it changes
+/// anchors    [vertices] xyz: where each was when contacts were found [m], w: its ball's radius [m]
+/// least      [vertices] the least distance of its planes from the anchor [m]
+/// rows       [2 * vertices] column-major: where the vertex' planes start, room for how many
+/// counts     [vertices] how many there are
+/// planes     [entries] xyz: n, w: how far the anchor lies before where the plane ends [m]
+/// cut        [vertices] written: 1 where the vertex was taken back, 2 where it found no place that
+///            all its planes and its ball allow, else 0
+/// soft       what stays between plane and vertex where only that has to yield [m]
+/// hard       what stays at least [m]
+WEFT_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* anchors,
+            WEFT_GLOBAL const float* least, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const float4* planes, WEFT_GLOBAL int* cut,
+            float soft, float hard) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const real4 x = load4(positions, i);
+    const real4 ball = load4(anchors, i);
+    const real3 anchor = xyz(ball);
+    const real3 wanted = subtract(xyz(x), anchor);
+    const real radius = ball.w;
+    const real nearest = load(least, i);
+    const real free = larger(smaller(nearest - splat(soft), radius), zero);
+    // A plane that comes over the anchor has to be looked at even by what does not move.
+    const real pushed = nearest < zero ? one : dot3(wanted, wanted) - free * free;
+    const real excess = x.w > zero ? pushed : zero;
+    const mask out = excess > zero;
+    whole result = splat_whole(0);
+    if (any_item(out)) {
+        const whole start = load_whole(rows, i);
+        const whole row = load_whole(counts, i);
+        const whole count = out ? row : splat_whole(0);
+        real3 foothold = make3(zero, zero, zero);
+        if (smallest_real(nearest) < 0.0f) foothold = foothold_before(planes, start, count);
+        const real length = length3(wanted);
+        const real shorter = length > radius ? radius / divisor(length) : one;
+        const kept_way kept =
+            way_before(planes, start, count, foothold, scale(wanted, shorter), soft, hard);
+        const real3 way = kept.way;
+        // Planes may have led it out of the ball again; between here and the foothold all is well.
+        const real from = length3(foothold);
+        const real rest = length3(subtract(way, foothold));
+        const real left = larger(radius - from, zero);
+        const real share = rest > left ? left / divisor(rest) : one;
+        const real3 end = add(anchor, between3(foothold, way, share));
+        store4_where(out, positions, i, with_w(end, x.w));
+        // Half of what stays at least is left for rounding.
+        const real beyond = larger(kept.lack - splat(0.5f * hard), from - radius);
+        result = out ? (beyond > zero ? splat_whole(2) : splat_whole(1)) : result;
+    }
+    store_whole(cut, i, result);
+}
+
+WEFT_KERNELS_END
+
+#endif

@@ -1,0 +1,191 @@
+#include "simulation/contact/pairs.h"
+
+#include <algorithm>
+
+#include "kernels/contact/near.h"
+#include "kernels/contact/pairs.h"
+
+namespace weft {
+
+namespace {
+
+using Items = SurfaceBuffers::Items;
+
+/// Launches take buffers as what they are.
+Buffer<int>& plain(SurfaceBuffers::Ints& buffer) { return buffer; }
+template <class Value>
+Value&& plain(Value&& value) {
+    return std::forward<Value>(value);
+}
+
+template <class Kernel, class... Values>
+Launch launch_on(Kernel kernel, const Items& items, Values&&... values) {
+    return launch(kernel, items.segments, plain(values)...);
+}
+
+/// At least one, so that devices have something to hold.
+std::size_t size_of(const Items& items) {
+    return static_cast<std::size_t>(std::max(items.count(), 1));
+}
+
+/// The items of a part, and of the strips up to `end`.
+std::pair<int, int> range(const Items& items, int begin, int end) {
+    return {items.segments.item(begin), items.segments.item(end)};
+}
+
+template <class Buffer>
+void updates(Step::Adding adding, Buffer& buffer, const Items& items, const Part& part) {
+    const auto [first, last] = range(items, part.begin, part.end);
+    adding.updates(buffer, first, last);
+}
+
+template <class Buffer>
+void reads_all(Step::Adding adding, Buffer& buffer, const Items& items) {
+    adding.reads(buffer, 0, items.count());
+}
+
+void fills(Step::Adding adding, ContactPairs::Table& rows, const Items& items, const Part& part) {
+    updates(adding, rows.table.counts(), items, part);
+    updates(adding, rows.table.needs(), items, part);
+    adding.updates(rows.others, rows.table.entries());
+}
+
+}  // namespace
+
+ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
+                           const Segments& strips, const PairSettings& settings, int first_kind)
+    : surface_(std::move(surface)),
+      s_(surface_, rest),
+      settings_(settings),
+      halo_(0.5f * settings.thickness),
+      anchors_(anchors),
+      strips_(strips),
+      points_("contact.points", size_of(s_.vertices.items)),
+      tilts_("contact.tilts", size_of(s_.patches)),
+      patch_low_("contact.patches.low", size_of(s_.patches)),
+      patch_high_("contact.patches.high", size_of(s_.patches)),
+      triangle_low_("contact.triangles.low", size_of(s_.triangles.items)),
+      triangle_high_("contact.triangles.high", size_of(s_.triangles.items)),
+      edge_low_("contact.edges.low", size_of(s_.edges.items)),
+      edge_high_("contact.edges.high", size_of(s_.edges.items)),
+      near_("contact.near", s_.patches.segments, 8 * settings.room),
+      vt_("contact.vt", s_.vertices.items.segments, 2 * settings.room),
+      tv_("contact.tv", s_.triangles.items.segments, settings.room),
+      ee_("contact.ee", s_.edges.items.segments, 2 * settings.room) {
+    make_boxes_body(first_kind);
+    make_near_body(first_kind + 1);
+    make_pairs_body(first_kind + 2);
+}
+
+void ContactPairs::make_boxes_body(int kind) {
+    const auto unite = [&](SurfaceBuffers::Level& level, Buffer<float4>& low,
+                           Buffer<float4>& high) {
+        return launch_on(kernels::enclose_boxes, level.items, level.children, low, high, level.low,
+                         level.high);
+    };
+    const float margin = 0.5f * halo_;
+    boxes_ = {
+        "boxes",
+        kind,
+        {launch_on(kernels::place_points, s_.vertices.items, anchors_, s_.model_vertices, points_),
+         launch_on(kernels::enclose_patches, s_.patches, anchors_, s_.hulls.begin, s_.hulls.items,
+                   patch_low_, patch_high_, margin),
+         launch_on(kernels::tilt_patches, s_.patches, anchors_, s_.face_begin, s_.face_corners,
+                   patch_high_, s_.quiet, tilts_, surface_.faces.begin.back()),
+         unite(s_.groups, patch_low_, patch_high_), unite(s_.blocks, s_.groups.low, s_.groups.high),
+         unite(s_.roots, s_.blocks.low, s_.blocks.high)}};
+}
+
+void ContactPairs::make_near_body(int kind) {
+    RowTable& table = near_.table;
+    const float margin = 0.5f * halo_;
+    near_task_ = {
+        "near",
+        kind,
+        {launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
+                   s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
+                   s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
+                   tilts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held, table.rows(),
+                   table.counts(), table.needs(), near_.others, surface_.patch_count(),
+                   surface_.strip_count(), settings_.self ? 1 : 0, kInstance),
+         launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
+                   s_.triangles.patches, table.counts(), triangle_low_, triangle_high_, margin, 3,
+                   surface_.triangle_count()),
+         launch_on(kernels::enclose_primitives, s_.edges.items, points_, s_.ends, s_.edges.patches,
+                   table.counts(), edge_low_, edge_high_, margin, 2, surface_.edge_count())}};
+}
+
+void ContactPairs::make_pairs_body(int kind) {
+    RowTable& near = near_.table;
+    pairs_ = {
+        "pairs",
+        kind,
+        {launch_on(kernels::find_triangles, s_.vertices.items, points_, s_.vertices.patches,
+                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                   s_.triangles.begin, s_.corners, triangle_low_, triangle_high_, s_.beyond,
+                   s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
+                   vt_.table.needs(), vt_.others, surface_.vertex_count(),
+                   surface_.triangle_count(), halo_, settings_.least, kInstance),
+         launch_on(kernels::find_vertices, s_.triangles.items, points_, s_.triangles.patches,
+                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                   s_.vertices.begin, s_.corners, triangle_low_, triangle_high_, s_.beyond,
+                   s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(), tv_.table.counts(),
+                   tv_.table.needs(), tv_.others, surface_.triangle_count(), halo_, settings_.least,
+                   kInstance),
+         launch_on(kernels::find_edges, s_.edges.items, points_, s_.edges.patches, near.rows(),
+                   near.counts(), near_.others, patch_low_, patch_high_, s_.edges.begin, s_.ends,
+                   edge_low_, edge_high_, ee_.table.rows(), ee_.table.counts(), ee_.table.needs(),
+                   ee_.others, surface_.edge_count(), halo_, settings_.least, kInstance)}};
+}
+
+/// The triangles of a strip reach into the next one.
+void ContactPairs::add_boxes(Step& step, const Part& part, int region) {
+    const int next = std::min(part.end + 1, strips_.strip_count);
+    auto adding = step.add(boxes_, 0, part.begin, part.end, region);
+    adding.reads(anchors_, strips_.item(part.begin), strips_.item(next));
+    updates(adding, points_, s_.vertices.items, part);
+    updates(adding, tilts_, s_.patches, part);
+    updates(adding, patch_low_, s_.patches, part);
+    updates(adding, patch_high_, s_.patches, part);
+    for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
+        updates(adding, level->low, level->items, part);
+        updates(adding, level->high, level->items, part);
+    }
+}
+
+void ContactPairs::add_near(Step& step, const Part& part, int region) {
+    const int next = std::min(part.end + 1, strips_.strip_count);
+    const auto [first, last] = range(s_.vertices.items, part.begin, next);
+    auto adding = step.add(near_task_, 0, part.begin, part.end, region);
+    reads_all(adding, tilts_, s_.patches);
+    reads_all(adding, patch_low_, s_.patches);
+    reads_all(adding, patch_high_, s_.patches);
+    for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
+        reads_all(adding, level->low, level->items);
+        reads_all(adding, level->high, level->items);
+    }
+    adding.reads(points_, first, last);
+    fills(adding, near_, s_.patches, part);
+    updates(adding, triangle_low_, s_.triangles.items, part);
+    updates(adding, triangle_high_, s_.triangles.items, part);
+    updates(adding, edge_low_, s_.edges.items, part);
+    updates(adding, edge_high_, s_.edges.items, part);
+}
+
+void ContactPairs::add_pairs(Step& step, const Part& part, int region) {
+    const auto [first, last] = range(s_.patches, part.begin, part.end);
+    auto adding = step.add(pairs_, 0, part.begin, part.end, region);
+    reads_all(adding, patch_low_, s_.patches);
+    reads_all(adding, patch_high_, s_.patches);
+    reads_all(adding, points_, s_.vertices.items);
+    reads_all(adding, triangle_low_, s_.triangles.items);
+    reads_all(adding, triangle_high_, s_.triangles.items);
+    reads_all(adding, edge_low_, s_.edges.items);
+    reads_all(adding, edge_high_, s_.edges.items);
+    adding.reads(near_.table.counts(), first, last).reads(near_.others, near_.table.entries());
+    fills(adding, vt_, s_.vertices.items, part);
+    fills(adding, tv_, s_.triangles.items, part);
+    fills(adding, ee_, s_.edges.items, part);
+}
+
+}  // namespace weft

@@ -1,0 +1,303 @@
+#include "simulation/contact/response.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernels/contact/begin.h"
+#include "kernels/contact/fill.h"
+#include "kernels/contact/rows.h"
+#include "kernels/contact/truncate.h"
+#include "simulation/contact/stiffness.h"
+#include "simulation/model/contact_thickness.h"
+
+namespace weft {
+
+namespace {
+
+// In parts of the thickness.
+constexpr float kMargin = 0.25f;      ///< by which vertices may go farther than inertia leads them
+constexpr float kStartSlack = 0.25f;  ///< what a substep's start leaves between plane and surface
+// In parts of the least distance.
+constexpr float kSoftSlack = 0.5f;
+constexpr float kHardSlack = 0.125f;
+
+constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels/contact/fill.h
+constexpr int kFirstRoom = 4;       ///< of a row
+
+/// The largest coordinate [m].
+double reach_of(const Model& model) {
+    float most = 0.0f;
+    for (const float4& x : model.positions->span()) {
+        most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    }
+    return static_cast<double>(most);
+}
+
+template <class T>
+void copy(const std::vector<T>& from, Buffer<T>& to) {
+    std::ranges::copy(from, to.data());
+}
+
+/// As columns of a table, in the model's vertices.
+template <std::size_t N>
+void fill_columns(const std::vector<std::array<int, N>>& items, const Surface& surface,
+                  Buffer<int>& table) {
+    for (std::size_t k = 0; k < N; ++k) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            table[k * items.size() + i] = surface.vertices[static_cast<std::size_t>(items[i][k])];
+        }
+    }
+}
+
+}  // namespace
+
+ContactResponse::Incidence::Incidence(const Surface& s, int vertex_count)
+    : surface("contact.surface", static_cast<std::size_t>(vertex_count)),
+      apexes("contact.apexes", s.vertices.size()),
+      triangle_begin("contact.triangle_begin", s.triangles_at.begin.size()),
+      triangle_list("contact.triangle_list", s.triangles_at.items.size()),
+      edge_begin("contact.edge_begin", s.edges_at.begin.size()),
+      edge_list("contact.edge_list", s.edges_at.items.size()),
+      triangles("contact.triangles", 3 * s.triangles.size()),
+      edges("contact.edges", 2 * s.edges.size()) {
+    for (std::size_t v = 0; v < s.vertices.size(); ++v) {
+        surface[static_cast<std::size_t>(s.vertices[v])] = static_cast<int>(v) + 1;
+    }
+    copy(s.vertices, apexes);
+    copy(s.triangles_at.begin, triangle_begin);
+    copy(s.triangles_at.items, triangle_list);
+    copy(s.edges_at.begin, edge_begin);
+    copy(s.edges_at.items, edge_list);
+    fill_columns(s.triangles, s, triangles);
+    fill_columns(s.edges, s, edges);
+}
+
+std::unique_ptr<ContactResponse> ContactResponse::of(Model& model, int first_kind) {
+    if (!model.scene.contact || model.triangles.empty()) return nullptr;
+    return std::unique_ptr<ContactResponse>(new ContactResponse(model, first_kind));
+}
+
+ContactResponse::ContactResponse(Model& model, int first_kind)
+    : model_(model),
+      range_(static_cast<float>(model.scene.contact->thickness)),
+      floor_(static_cast<float>(contact_floor(model.scene.contact->thickness, reach_of(model)))),
+      anchors_("contact.anchors", model.positions->count()),
+      goals_("contact.goals", model.positions->count()),
+      stiffness_("contact.stiffness", model.positions->count()),
+      pairs_(make_surface(surface_of(model), model.strips), rest_of(model), anchors_,
+             model.vertices(), {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
+      incidence_(pairs_.surface(), model.vertex_count()),
+      fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
+      planes_table_("contact.planes", model.vertices(), kFirstRoom),
+      contacts_("contact.contacts", model.vertices(), kFirstRoom),
+      planes_(planes_table_.add_column<float4>("planes")),
+      corner0_(contacts_.add_column<int>("corner0")),
+      corner1_(contacts_.add_column<int>("corner1")),
+      corner2_(contacts_.add_column<int>("corner2")),
+      corner3_(contacts_.add_column<int>("corner3")),
+      normals_(contacts_.add_column<float4>("normals")),
+      weights_(contacts_.add_column<float4>("weights")),
+      measures_(contacts_.add_column<float4>("measures")),
+      least_("contact.least", model.positions->count()),
+      nearest_("contact.nearest", model.positions->count()),
+      cut_("contact.cut", model.positions->count()),
+      cut_counts_("contact.cut_counts", 2 * model.positions->count()),
+      still_("contact.still", 1),
+      snapshots_("contact.snapshots", 2 * model.positions->count()) {
+    copy(contact_stiffness(model), stiffness_);
+    make_fill();
+}
+
+void ContactResponse::make_fill() {
+    const auto factor = static_cast<float>(model_.scene.contact->stiffness);
+    auto& vt = pairs_.vt();
+    auto& tv = pairs_.tv();
+    auto& ee = pairs_.ee();
+    fill_ = {
+        "contacts",
+        fill_kind_,
+        {launch(kernels::fill_contacts, model_.vertices(), anchors_, goals_, stiffness_,
+                incidence_.surface, incidence_.triangle_begin, incidence_.triangle_list,
+                incidence_.edge_begin, incidence_.edge_list, incidence_.triangles, incidence_.edges,
+                incidence_.apexes, vt.table.rows(), vt.table.counts(), vt.others, tv.table.rows(),
+                tv.table.counts(), tv.others, ee.table.rows(), ee.table.counts(), ee.others,
+                planes_table_.rows(), planes_table_.counts(), planes_table_.needs(), planes_,
+                contacts_.rows(), contacts_.counts(), contacts_.needs(), corner0_, corner1_,
+                corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
+                model_.vertex_count(), pairs_.surface().triangle_count(),
+                pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
+         truncation(*model_.positions, kStartSlack * range_), snapshot(*model_.positions, 0)}};
+}
+
+std::vector<const TaskBody*> ContactResponse::bodies() const {
+    auto list = pairs_.bodies();
+    list.push_back(&fill_);
+    return list;
+}
+
+std::vector<std::string> ContactResponse::kinds() const {
+    auto names = ContactPairs::kinds();
+    names.push_back(fill_.name);
+    return names;
+}
+
+std::vector<RowTable*> ContactResponse::tables() {
+    auto list = pairs_.tables();
+    list.push_back(&planes_table_);
+    list.push_back(&contacts_);
+    return list;
+}
+
+void ContactResponse::add_begin(std::vector<Launch>& launches, Buffer<float4>& targets) {
+    const auto most = static_cast<float>(model_.scene.guard.max_speed * model_.h);
+    Buffer<float>& led = model_.moving_pins ? model_.moving_pins->farthest() : still_;
+    launches.push_back(launch(kernels::begin_contacts, model_.vertices(), *model_.positions,
+                              *model_.previous, targets, goals_, anchors_, led, kMargin * range_,
+                              most));
+}
+
+void ContactResponse::add_begin_accesses(Step::Adding& task, int first, int last) {
+    task.updates(goals_, first, last).updates(anchors_, first, last);
+}
+
+void ContactResponse::add_detection(Step& step, const std::vector<Region>& regions) {
+    const auto for_each = [&](auto add) {
+        for (const Region& r : regions) (pairs_.*add)(step, Part{r.begin, r.end}, r.id);
+    };
+    for_each(&ContactPairs::add_boxes);
+    for_each(&ContactPairs::add_near);
+    for_each(&ContactPairs::add_pairs);
+    for (const Region& region : regions) add_fill(step, region);
+}
+
+/// A vertex' triangles and edges are its strip's, or those of the one before it.
+void ContactResponse::add_fill(Step& step, const Region& region) {
+    const auto [first, last] = vertices(region.begin, region.end);
+    const int all = model_.vertex_count();
+    auto task = step.add(fill_, 0, region.begin, region.end, region.id);
+    task.reads(anchors_, 0, all).reads(goals_, 0, all).updates(*model_.positions, first, last);
+    add_pair_accesses(task, region);
+    for (RowTable* table : {&planes_table_, &contacts_}) {
+        task.updates(table->counts(), first, last).updates(table->needs(), first, last);
+    }
+    task.updates(planes_, planes_table_.entries());
+    for (Buffer<int>* corner : {&corner0_, &corner1_, &corner2_, &corner3_}) {
+        task.updates(*corner, contacts_.entries());
+    }
+    for (Buffer<float4>* column : {&normals_, &weights_, &measures_}) {
+        task.updates(*column, contacts_.entries());
+    }
+    task.updates(least_, first, last)
+        .updates(nearest_, first, last)
+        .updates(cut_, first, last)
+        .updates(snapshots_, first, last);
+}
+
+void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region) {
+    const int from = std::max(region.begin - 1, 0);
+    const auto add = [&](ContactPairs::Table& pairs, const Segments& items) {
+        task.reads(pairs.table.counts(), items.item(from), items.item(region.end))
+            .reads(pairs.others, pairs.table.entries(), from, region.end);
+    };
+    add(pairs_.vt(), pairs_.buffers().vertices.items.segments);
+    add(pairs_.tv(), pairs_.buffers().triangles.items.segments);
+    add(pairs_.ee(), pairs_.buffers().edges.items.segments);
+}
+
+Launch ContactResponse::gather(const Segments& segments, Buffer<float4>& positions,
+                               VertexItems& items, Buffer<float>& sums) {
+    return launch(kernels::gather_contacts, segments, positions, snapshots_, items.vertices(),
+                  contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
+                  normals_, weights_, measures_, sums, items.count(), model_.vertex_count(),
+                  kIteration);
+}
+
+void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
+                                          int end_strip) {
+    const auto [first, last] = vertices(first_strip, end_strip);
+    const int all = model_.vertex_count();
+    const int half = iteration % 2 * all;
+    task.reads(snapshots_, half, half + all).reads(contacts_.counts(), first, last);
+    for (Buffer<int>* corner : {&corner0_, &corner1_, &corner2_, &corner3_}) {
+        task.reads(*corner, contacts_.entries(), first_strip, end_strip);
+    }
+    for (Buffer<float4>* column : {&normals_, &weights_, &measures_}) {
+        task.reads(*column, contacts_.entries(), first_strip, end_strip);
+    }
+}
+
+Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
+    return launch(kernels::truncate_contacts, model_.vertices(), positions, anchors_, least_,
+                  planes_table_.rows(), planes_table_.counts(), planes_, cut_, soft,
+                  kHardSlack * floor_);
+}
+
+Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
+    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_,
+                  model_.vertex_count(), kIteration, ahead);
+}
+
+void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    launches.push_back(truncation(positions, kSoftSlack * floor_));
+}
+
+void ContactResponse::add_truncation_accesses(Step::Adding& task, int first, int last) {
+    task.reads(anchors_, first, last)
+        .reads(least_, first, last)
+        .reads(planes_table_.counts(), first, last)
+        .reads(planes_, planes_table_.entries())
+        .updates(cut_, first, last);
+}
+
+void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    launches.push_back(snapshot(positions, 1));
+}
+
+void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
+                                            int last) {
+    const int half = (iteration + 1) % 2 * model_.vertex_count();
+    task.updates(snapshots_, half + first, half + last);
+}
+
+void ContactResponse::add_count(std::vector<Launch>& launches) {
+    launches.push_back(launch(kernels::count_cut, model_.vertices(), cut_, cut_counts_,
+                              model_.vertex_count(), kInstance));
+}
+
+void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last) {
+    const int all = model_.vertex_count();
+    task.reads(cut_, first, last)
+        .updates(cut_counts_, first, last)
+        .updates(cut_counts_, all + first, all + last);
+}
+
+std::string ContactResponse::trouble() const {
+    const auto count = static_cast<std::size_t>(model_.vertex_count());
+    int lost = 0;
+    int touching = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+        if (cut_counts_[count + v] > 0) ++lost;
+        if (nearest_[v] <= kNothing) ++touching;
+    }
+    std::string text;
+    if (lost > 0) {
+        text = fmt::format("contact: {} vertices found no place that all of their contacts allow",
+                           lost);
+    }
+    if (touching > 0) {
+        text += fmt::format(
+            "{}{} vertices are at distance 0 of a surface, where contact knows no "
+            "side to keep them on",
+            text.empty() ? "contact: " : ", and ", touching);
+    }
+    return text;
+}
+
+std::pair<int, int> ContactResponse::vertices(int first_strip, int end_strip) const {
+    return {model_.vertices().item(first_strip), model_.vertices().item(end_strip)};
+}
+
+}  // namespace weft

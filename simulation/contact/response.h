@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/planning/regions.h"
+#include "runtime/row_table.h"
+#include "runtime/step.h"
+#include "simulation/contact/pairs.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// What bodies do where they touch each other or themselves: finds contacts at a substep's begin,
+/// pushes bodies apart in every iteration, and has the last word about where vertices may be. See
+/// kernels/contact/: rows.h how contacts push, truncation.h why nothing passes through.
+class ContactResponse {
+public:
+    /// Null: the scene has no [contact], or nothing that could touch. first_kind: of its tasks
+    static std::unique_ptr<ContactResponse> of(Model& model, int first_kind);
+
+    std::vector<const TaskBody*> bodies() const;
+    std::vector<std::string> kinds() const;
+    std::vector<RowTable*> tables();
+
+    /// Behind what begins a substep: where contacts are to be looked for.
+    void add_begin(std::vector<Launch>& launches, Buffer<float4>& targets);
+    void add_begin_accesses(Step::Adding& task, int first, int last);
+    /// Behind all of that: the tasks that find contacts, take the start back to where they allow it
+    /// to be, and show it to all.
+    void add_detection(Step& step, const std::vector<Region>& regions);
+
+    /// The contacts' part of gradients and Hessian blocks, behind that of the elements.
+    Launch gather(const Segments& segments, Buffer<float4>& positions, VertexItems& items,
+                  Buffer<float>& sums);
+    /// What that needs, of vertices in strips [first_strip, end_strip).
+    void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
+
+    /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.
+    void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions);
+    /// What that needs of its own strips.
+    void add_truncation_accesses(Step::Adding& task, int first, int last);
+    /// Shows the positions to all in the next iteration.
+    void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
+    void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
+
+    /// At a substep's end: counts who was taken back.
+    void add_count(std::vector<Launch>& launches);
+    void add_count_accesses(Step::Adding& task, int first, int last);
+
+    /// What a frame tells of itself; the host's copy.
+    Buffer<int>& cut_counts() { return cut_counts_; }
+    Buffer<float>& nearest() { return nearest_; }
+    /// What is to be told of a frame whose cut_counts() and nearest() the host has; empty: nothing.
+    std::string trouble() const;
+
+    /// [vertices] how many contacts each has.
+    Buffer<int>& counts() { return contacts_.counts(); }
+
+private:
+    /// The surface as rows of contacts want it, in the model's vertices.
+    struct Incidence {
+        explicit Incidence(const Surface& surface, int vertex_count);
+        Buffer<int> surface;  ///< [vertices] number as a vertex of the surface + 1, or 0
+        Buffer<int> apexes;   ///< [surface vertices] the other way
+        Buffer<int> triangle_begin, triangle_list, edge_begin, edge_list;
+        Buffer<int> triangles;  ///< [3 * triangles] column-major
+        Buffer<int> edges;      ///< [2 * edges] likewise
+    };
+    ContactResponse(Model& model, int first_kind);
+    void make_fill();
+    void add_fill(Step& step, const Region& region);
+    void add_pair_accesses(Step::Adding& task, const Region& region);
+    Launch truncation(Buffer<float4>& positions, float soft);
+    Launch snapshot(Buffer<float4>& positions, int ahead);
+    std::pair<int, int> vertices(int first_strip, int end_strip) const;
+
+    Model& model_;
+    float range_, floor_;
+    Buffer<float4> anchors_, goals_;
+    Buffer<float> stiffness_;
+    ContactPairs pairs_;
+    Incidence incidence_;
+    int fill_kind_;
+    RowTable planes_table_, contacts_;
+    Buffer<float4>& planes_;
+    Buffer<int>&corner0_, &corner1_, &corner2_, &corner3_;
+    Buffer<float4>&normals_, &weights_, &measures_;
+    Buffer<float> least_, nearest_;
+    Buffer<int> cut_, cut_counts_;
+    Buffer<float> still_;  ///< [1] how far pins go that stay where they are
+    Buffer<float4> snapshots_;
+    TaskBody fill_;
+};
+
+}  // namespace weft

@@ -1,0 +1,64 @@
+#include "simulation/contact/stiffness.h"
+
+#include <algorithm>
+
+#include "simulation/families/convert.h"
+
+namespace weft {
+
+namespace {
+
+constexpr double kHeld = 1e30;
+
+/// Adds a third of the trace of each corner's own block.
+void add_elements(const ElementFamily& family, std::span<const float4> positions,
+                  std::vector<double>& sums) {
+    std::array<Mat3, kMaxCorners * kMaxCorners> blocks;
+    for (int e = 0; e < family.count(); ++e) {
+        const auto corners = family.corners(e);
+        const auto x = family.positions_of(e, positions);
+        family.hessian(e, x.data(), blocks.data());
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const auto& rows = blocks[k * corners.size() + k].rows;
+            const double third = (rows[0].x + rows[1].y + rows[2].z) / 3.0;
+            sums[static_cast<std::size_t>(corners[k])] += std::max(third, 0.0);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<float> contact_stiffness(const Model& model) {
+    const auto positions = model.positions->span();
+    std::vector<double> sums(positions.size());
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        sums[v] = model.masses[v] / (model.h * model.h);
+    }
+    for (const auto& family : model.families) add_elements(*family, positions, sums);
+    std::vector<float> stiffness(sums.size());
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+        stiffness[v] = static_cast<float>(positions[v].w > 0.0f ? sums[v] : kHeld);
+    }
+    return stiffness;
+}
+
+std::vector<Vec3> rest_of(const Model& model) {
+    std::vector<Vec3> rest;
+    for (const float4& x : model.positions->span()) rest.push_back(to_vec3(x));
+    return rest;
+}
+
+SurfaceMesh surface_of(const Model& model) {
+    SurfaceMesh mesh;
+    const auto& rank = model.strips.rank;
+    for (const auto& t : model.triangles) {
+        auto& triangle = mesh.triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) triangle[k] = rank[static_cast<std::size_t>(t[k])];
+    }
+    mesh.triangle_body = model.triangle_body;
+    mesh.rest = rest_of(model);
+    for (const float4& x : model.positions->span()) mesh.held.push_back(x.w > 0.0f ? 0 : 1);
+    return mesh;
+}
+
+}  // namespace weft

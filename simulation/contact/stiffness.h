@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/contact/surface.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// What the stiffness of a vertex' contacts is measured by [N/m]: m / h^2 and how much its elements
+/// hold it at rest. So contacts are as stiff as what they hold apart, and scenes with other masses
+/// and stiffnesses in one proportion behave alike. Held vertices have more than any other.
+std::vector<float> contact_stiffness(const Model& model);
+
+/// The vertices where they are now [m].
+std::vector<Vec3> rest_of(const Model& model);
+/// All triangles of a model as a surface's.
+SurfaceMesh surface_of(const Model& model);
+
+}  // namespace weft

@@ -1,0 +1,336 @@
+#include "simulation/start_contacts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "runtime/error.h"
+#include "runtime/tbb/parallel.h"
+#include "simulation/energy_account.h"
+#include "simulation/mesh/winding.h"
+#include "simulation/model/contact_thickness.h"
+#include "simulation/triangle_distance.h"
+
+namespace weft {
+
+namespace {
+
+constexpr std::size_t kNamedPairs = 20;
+
+/// Elements of two vertices that are no edge of a triangle: attachments and stitches.
+std::set<std::array<int, 2>> find_ties(const Model& model) {
+    std::set<std::array<int, 2>> ties;
+    for (const Stencils& kind : model.stencils()) {
+        if (kind.arity != 2) continue;
+        for (int e = 0; e < kind.count(); ++e) {
+            const int a = model.scene_vertex(kind[e][0]);
+            const int b = model.scene_vertex(kind[e][1]);
+            ties.insert({std::min(a, b), std::max(a, b)});
+        }
+    }
+    for (const auto& t : model.triangles) {
+        for (std::size_t k = 0; k < 3 && !ties.empty(); ++k) {
+            const int a = t[k], b = t[(k + 1) % 3];
+            ties.erase({std::min(a, b), std::max(a, b)});
+        }
+    }
+    return ties;
+}
+
+/// The model's triangles at its positions, and which pairs of them contact looks at.
+class StartSurface {
+public:
+    explicit StartSurface(const Model& model)
+        : model_(model),
+          positions_(model.positions->span().size()),
+          held_(positions_.size()),
+          ties_(find_ties(model)) {
+        for (std::size_t v = 0; v < positions_.size(); ++v) {
+            const float4& x = (*model.positions)[v];
+            const auto s = static_cast<std::size_t>(model.scene_vertex(static_cast<int>(v)));
+            positions_[s] = {x.x, x.y, x.z};
+            held_[s] = x.w == 0.0f ? 1 : 0;
+        }
+    }
+
+    PlainSurface surface() const { return {positions_, model_.triangles}; }
+    Corners corners(int t) const {
+        return {surface().corner(t, 0), surface().corner(t, 1), surface().corner(t, 2)};
+    }
+    int body(int t) const { return model_.triangle_body[static_cast<std::size_t>(t)]; }
+    Vec3 position(int vertex) const { return positions_[static_cast<std::size_t>(vertex)]; }
+
+    bool counts(int a, int b) const {
+        if (body(a) == body(b) && !model_.scene.contact->self) return false;
+        return !(is_held(a) && is_held(b)) && !are_tied(a, b);
+    }
+    bool share_a_vertex(int a, int b) const {
+        return std::ranges::any_of(triangle(a),
+                                   [&](int v) { return std::ranges::count(triangle(b), v) != 0; });
+    }
+
+private:
+    const std::array<int, 3>& triangle(int t) const {
+        return model_.triangles[static_cast<std::size_t>(t)];
+    }
+    bool is_held(int t) const {
+        return std::ranges::all_of(triangle(t),
+                                   [&](int v) { return held_[static_cast<std::size_t>(v)] != 0; });
+    }
+    bool are_tied(int a, int b) const {
+        if (ties_.empty()) return false;
+        for (const int v : triangle(a)) {
+            for (const int w : triangle(b)) {
+                if (ties_.contains({std::min(v, w), std::max(v, w)})) return true;
+            }
+        }
+        return false;
+    }
+
+    const Model& model_;
+    std::vector<Vec3> positions_;  ///< in scene order
+    std::vector<char> held_;
+    std::set<std::array<int, 2>> ties_;
+};
+
+/// Pairs nearer than `floor` that do not cross.
+void find_near(const StartSurface& start, const BoxTree& tree, double floor,
+               StartContacts& contacts) {
+    struct Near {
+        std::vector<TrianglePair> pairs;
+        double least = std::numeric_limits<double>::infinity();
+    };
+    std::vector<Near> found(static_cast<std::size_t>(block_count(tree.count())));
+    for_each_block(tree.count(), [&](int block, int begin, int end) {
+        Near& near = found[static_cast<std::size_t>(block)];
+        for (int a = begin; a < end; ++a) {
+            tree.visit(tree.box(a).grown(floor), [&](int b) {
+                if (b <= a || !start.counts(a, b) || start.share_a_vertex(a, b)) return;
+                const double distance = distance_of(start.corners(a), start.corners(b));
+                if (distance >= floor) return;
+                if (std::ranges::binary_search(contacts.crossings, TrianglePair{a, b})) return;
+                near.pairs.push_back({a, b});
+                near.least = std::min(near.least, distance);
+            });
+        }
+        std::ranges::sort(near.pairs);
+    });
+    contacts.least = floor;
+    for (const Near& near : found) {
+        contacts.near.insert(contacts.near.end(), near.pairs.begin(), near.pairs.end());
+        contacts.least = std::min(contacts.least, near.least);
+    }
+}
+
+// ---- bodies inside others ----
+
+/// A part of a body's surface that hangs together.
+struct Piece {
+    int body;
+    int vertex;  ///< the first one
+    Bounds box;
+};
+
+/// Vertices of the same piece have the same root.
+class Roots {
+public:
+    explicit Roots(int count) : parents_(static_cast<std::size_t>(count)) {
+        for (int v = 0; v < count; ++v) parents_[static_cast<std::size_t>(v)] = v;
+    }
+    int of(int v) {
+        while (parent(v) != v) v = parent(v) = parent(parent(v));
+        return v;
+    }
+    void join(int a, int b) {
+        a = of(a);
+        b = of(b);
+        parent(std::max(a, b)) = std::min(a, b);
+    }
+
+private:
+    int& parent(int v) { return parents_[static_cast<std::size_t>(v)]; }
+    std::vector<int> parents_;
+};
+
+std::vector<Piece> pieces_of(const Model& model, const StartSurface& start) {
+    Roots roots(model.vertex_count());
+    for (const auto& t : model.triangles) {
+        roots.join(t[0], t[1]);
+        roots.join(t[1], t[2]);
+    }
+    std::vector<int> number(static_cast<std::size_t>(model.vertex_count()), -1);
+    std::vector<Piece> pieces;
+    for (int t = 0; t < static_cast<int>(model.triangles.size()); ++t) {
+        const int root = roots.of(model.triangles[static_cast<std::size_t>(t)][0]);
+        int& piece = number[static_cast<std::size_t>(root)];
+        const Bounds box = start.surface().bounds(t);
+        if (piece < 0) {
+            piece = static_cast<int>(pieces.size());
+            pieces.push_back({start.body(t), root, box});
+        }
+        pieces[static_cast<std::size_t>(piece)].box.include(box);
+    }
+    return pieces;
+}
+
+/// Triangles of a body: they stand together.
+struct TriangleRange {
+    int begin = 0, end = 0;
+    Bounds box;
+};
+
+std::vector<TriangleRange> ranges_of(const Model& model, const StartSurface& start) {
+    std::vector<TriangleRange> ranges(model.bodies.size());
+    for (int t = 0; t < static_cast<int>(model.triangles.size()); ++t) {
+        TriangleRange& range = ranges[static_cast<std::size_t>(start.body(t))];
+        const Bounds box = start.surface().bounds(t);
+        if (range.end == 0) range = {t, t, box};
+        range.box.include(box);
+        range.end = t + 1;
+    }
+    return ranges;
+}
+
+bool is_obstacle(const Model& model, int body) {
+    return model.bodies[static_cast<std::size_t>(body)].kind == "obstacle";
+}
+
+bool is_within(const Bounds& inner, const Bounds& outer) {
+    Bounds both = outer;
+    both.include(inner);
+    return both.low == outer.low && both.high == outer.high;
+}
+
+/// Whether every edge of the triangles [begin, end) has two of them that run through it to and fro.
+bool is_closed(const Model& model, int begin, int end) {
+    std::map<std::array<int, 2>, int> balance;
+    for (int t = begin; t < end; ++t) {
+        const auto& corners = model.triangles[static_cast<std::size_t>(t)];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int a = corners[k], b = corners[(k + 1) % 3];
+            balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    }
+    return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Cloth may be filled. Solids, and obstacles that are closed, have an inside that belongs to
+/// nobody else.
+bool has_inside(const Model& model, std::size_t body, const TriangleRange& range) {
+    if (model.bodies[body].kind == "solid") return true;
+    return model.bodies[body].kind == "obstacle" && is_closed(model, range.begin, range.end);
+}
+
+void find_swallowed(const Model& model, const StartSurface& start, StartContacts& contacts) {
+    const std::vector<TriangleRange> ranges = ranges_of(model, start);
+    const std::vector<Piece> pieces = pieces_of(model, start);
+    for (std::size_t b = 0; b < ranges.size(); ++b) {
+        if (!has_inside(model, b, ranges[b])) continue;
+        for (const Piece& piece : pieces) {
+            // Parts of a figure may reach into each other.
+            if (static_cast<int>(b) == piece.body || is_obstacle(model, piece.body)) continue;
+            if (!is_within(piece.box, ranges[b].box)) continue;
+            const double times = winding_number(start.surface(), ranges[b].begin, ranges[b].end,
+                                                start.position(piece.vertex));
+            if (std::abs(times) < 0.5) continue;
+            contacts.swallowed.push_back({piece.body, static_cast<int>(b), piece.vertex});
+        }
+    }
+}
+
+// ---- words ----
+
+std::string body_name(const BodyRange& body) {
+    return fmt::format("{} '{}'", body.kind, body.name);
+}
+
+class Words {
+public:
+    explicit Words(const Model& model) : model_(model), first_(model.bodies.size(), -1) {
+        for (std::size_t t = model.triangles.size(); t-- > 0;) {
+            first_[static_cast<std::size_t>(model.triangle_body[t])] = static_cast<int>(t);
+        }
+    }
+
+    /// "cloth 'a' triangle 3 and cloth 'b' triangle 5"
+    std::string pair(const TrianglePair& pair) const {
+        return triangle(pair[0]) + " and " + triangle(pair[1]);
+    }
+    std::string crossings(const std::vector<TrianglePair>& pairs) const {
+        std::vector<std::string> named;
+        for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
+            named.push_back(pair(pairs[i]));
+        }
+        return fmt::format("{} pair{} of triangles cross: {}{}", pairs.size(),
+                           pairs.size() == 1 ? "" : "s", fmt::join(named, "; "),
+                           pairs.size() > kNamedPairs ? "; ..." : "");
+    }
+    std::string swallowed(const StartContacts::Swallowed& what) const {
+        const BodyRange& body = model_.bodies[static_cast<std::size_t>(what.body)];
+        const BodyRange& outer = model_.bodies[static_cast<std::size_t>(what.inside)];
+        return fmt::format("{} lies inside {} (vertex {})", body_name(body), body_name(outer),
+                           what.vertex - body.first_vertex);
+    }
+
+private:
+    std::string triangle(int t) const {
+        const auto body =
+            static_cast<std::size_t>(model_.triangle_body[static_cast<std::size_t>(t)]);
+        return fmt::format("{} triangle {}", body_name(model_.bodies[body]), t - first_[body]);
+    }
+
+    const Model& model_;
+    std::vector<int> first_;  ///< [bodies] triangle
+};
+
+std::vector<std::string> what_crosses(const StartContacts& contacts, const Words& words) {
+    std::vector<std::string> texts;
+    if (!contacts.crossings.empty()) texts.push_back(words.crossings(contacts.crossings));
+    for (const auto& what : contacts.swallowed) {
+        if (texts.size() < kNamedPairs) texts.push_back(words.swallowed(what));
+    }
+    return texts;
+}
+
+}  // namespace
+
+StartContacts find_start_contacts(const Model& model, double floor) {
+    const StartSurface start(model);
+    const PlainSurface surface = start.surface();
+    const BoxTree tree = surface.tree();
+    StartContacts contacts;
+    contacts.crossings =
+        find_crossings(surface, tree, [&](int a, int b) { return start.counts(a, b); });
+    find_near(start, tree, floor, contacts);
+    if (contacts.crossings.empty()) find_swallowed(model, start, contacts);
+    return contacts;
+}
+
+void check_start_contacts(const Model& model, OnCrossing on_crossing, Warnings& warnings) {
+    const Contact& contact = *model.scene.contact;
+    const double floor = contact_floor(contact.thickness, reach_of(model.positions->span()));
+    const StartContacts contacts = find_start_contacts(model, floor);
+    const Words words(model);
+    const std::vector<std::string> texts = what_crosses(contacts, words);
+    if (!texts.empty() && on_crossing == OnCrossing::kStop) {
+        throw UserError(fmt::format(
+            "{}: bodies cross at the start, and [contact] cannot part them: {}; move them apart, "
+            "or take --on-crossing warn",
+            model.scene.path, fmt::join(texts, "; ")));
+    }
+    for (const std::string& text : texts) {
+        warnings.push_back("at the start " + text + "; contact does not part them");
+    }
+    if (contacts.near.empty()) return;
+    warnings.push_back(fmt::format(
+        "{} pair{} of triangles start nearer to each other than {:.3g} m, which contact keeps "
+        "surfaces apart, the nearest at {:.3g} m (the first: {}): they may get through each other",
+        contacts.near.size(), contacts.near.size() == 1 ? "" : "s", floor, contacts.least,
+        words.pair(contacts.near.front())));
+}
+
+}  // namespace weft

@@ -1,0 +1,188 @@
+"""Small scenes in which surfaces try to get through each other, in frames of one substep."""
+
+import math
+
+SUBSTEP = 1.0 / 600.0
+
+
+def head(frames, contact="thickness = 0.004", gravity="[0.0, -9.81, 0.0]", iterations=10,
+         step=SUBSTEP, extra=""):
+    return f"""
+[scene]
+frames = {frames}
+dt = {step!r}
+substeps = 1
+gravity = {gravity}
+{extra}
+[solver]
+method = "vbd"
+iterations = {iterations}
+[contact]
+{contact}
+"""
+
+
+def cloth(name, shape, place="", density=0.2, stiffness=500.0, bend=1e-5):
+    return f"""
+[[cloth]]
+name = "{name}"
+{shape}
+density = {density}
+stretch = {{ stiffness = {stiffness} }}
+bend = {{ stiffness = {bend} }}
+{place}
+"""
+
+
+def grid(width, depth, across, along):
+    return f"grid = {{ size = [{width}, {depth}], resolution = [{across}, {along}] }}"
+
+
+def block(name, size, resolution, place="", density=500.0, young=5e4):
+    return f"""
+[[solid]]
+name = "{name}"
+grid = {{ size = {size}, resolution = {resolution} }}
+density = {density}
+young = {young}
+poisson = 0.3
+{place}
+"""
+
+
+HELD = "pins = { box = [[-9, -9, -9], [9, 9, 9]] }"
+
+
+def carried(motion):
+    return f"pins = {{ box = [[-9, -9, -9], [9, 9, 9]], motion = {{ {motion} }} }}"
+
+
+def stack(count, side, frames):
+    sheets = [cloth("floor", grid(0.3, 0.3, side + 1, side + 1), HELD)]
+    for i in range(count):
+        place = f"rotate = [0, 1, 0, {7 * i}]\ntranslate = [0, {0.005 * (i + 1)}, 0]"
+        sheets.append(cloth(f"sheet{i}", grid(0.2, 0.2, side, side), place))
+    return head(frames) + "".join(sheets)
+
+
+def twist(frames=300):
+    """By 4 pi, from both ends."""
+    turn = 360.0 / (frames * SUBSTEP)
+    pins = "".join(
+        f"[[cloth.pins]]\nedges = [\"{edge}\"]\nmotion = {{ angular_velocity = {sign * turn!r}, "
+        f"axis = [1, 0, 0], velocity = [{-0.1 * sign!r}, 0, 0] }}\n"
+        for edge, sign in (("x-", -1), ("x+", 1)))
+    return head(frames, gravity="[0, 0, 0]") + cloth("ribbon", grid(0.5, 0.15, 34, 11), pins)
+
+
+def needle(frames=120):
+    sheets = "".join(cloth(f"sheet{i}", grid(0.3, 0.3, 12, 12),
+                           f"translate = [0, {-0.01 * i}, 0]\npins = {{ edges = [\"x-\", \"x+\"] }}")
+                     for i in range(3))
+    return head(frames) + sheets + block("needle", "[0.01, 0.1, 0.01]", "[2, 6, 2]",
+                                         "translate = [0.003, 0.06, 0.002]\n"
+                                         + carried("velocity = [0, -0.5, 0]"))
+
+
+def fast_sheets(frames=40):
+    """10 m/s within the first substep, from 5 mm above."""
+    extra = f"gravity_keyframes = [[0, 0, -6000, 0], [{SUBSTEP!r}, 0, -6000, 0], " \
+            f"[{1.01 * SUBSTEP!r}, 0, -9.81, 0]]"
+    return (head(frames, extra=extra)
+            + cloth("low", grid(0.3, 0.3, 13, 13), "pins = { edges = [\"x-\", \"x+\"] }")
+            + cloth("high", grid(0.2, 0.2, 12, 12), "translate = [0.01, 0.005, 0.003]"))
+
+
+def fold(frames=300):
+    """An edge is laid onto the opposite one, and pressed down."""
+    end = frames * SUBSTEP
+    motion = (f"[[cloth.pins]]\nedges = [\"x-\"]\n[[cloth.pins]]\nedges = [\"x+\"]\n"
+              f"[cloth.pins.motion]\naxis = [0, 0, 1]\ncenter = [0, 0.01, 0]\nkeyframes = ["
+              f"{{ time = 0 }}, {{ time = {0.7 * end!r}, rotate = 176 }}, "
+              f"{{ time = {end!r}, rotate = 176, translate = [0, -0.01, 0] }}]\n")
+    return head(frames) + cloth("sheet", grid(0.3, 0.15, 24, 12), motion)
+
+
+def pressed_blocks(frames=200):
+    """Two blocks, between plates that come together to half of the height."""
+    speed = 0.2 / (frames * SUBSTEP)
+    low = block("low", "[0.2, 0.195, 0.2]", "[5, 5, 5]", "translate = [0, 0.1, 0]\n"
+                "pins = { faces = [\"y-\"] }")
+    high = block("high", "[0.18, 0.195, 0.18]", "[5, 5, 5]", "translate = [0.005, 0.3, 0.003]\n"
+                 f"pins = {{ faces = [\"y+\"], motion = {{ velocity = [0, {-speed!r}, 0] }} }}")
+    return head(frames) + low + high
+
+
+def knife(frames=120):
+    """An edge comes down on a vertex."""
+    return (head(frames)
+            + cloth("sheet", grid(0.3, 0.3, 13, 13), "pins = { edges = [\"x-\", \"x+\"] }")
+            + cloth("knife", grid(0.1, 0.2, 2, 3), "rotate = [0, 0, 1, 90]\n"
+                    "translate = [0, 0.06, 0]\n" + carried("velocity = [0, -0.4, 0]")))
+
+
+def sphere_mesh(radius=0.5, levels=3):
+    """An icosahedron, refined: 42, 162, 642 vertices."""
+    t = (1.0 + math.sqrt(5.0)) / 2.0
+    points = [(-1, t, 0), (1, t, 0), (-1, -t, 0), (1, -t, 0), (0, -1, t), (0, 1, t), (0, -1, -t),
+              (0, 1, -t), (t, 0, -1), (t, 0, 1), (-t, 0, -1), (-t, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4),
+             (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8),
+             (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    for _ in range(levels):
+        middles, finer = {}, []
+
+        def middle(a, b):
+            key = (min(a, b), max(a, b))
+            if key not in middles:
+                middles[key] = len(points)
+                points.append(tuple((p + q) / 2.0 for p, q in zip(points[a], points[b])))
+            return middles[key]
+
+        for a, b, c in faces:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = finer
+    lines = []
+    for p in points:
+        size = math.sqrt(sum(x * x for x in p)) / radius
+        lines.append("v " + " ".join(f"{x / size:.7g}" for x in p))
+    lines += ["f " + " ".join(str(v + 1) for v in face) for face in faces]
+    return "\n".join(lines) + "\n"
+
+
+def hit_sphere(speed, way=1.5):
+    """A ball of cloth of 1 m (sphere.obj) is hit by a box that nothing stops."""
+    step = min(SUBSTEP, 0.1 / speed)
+    frames = math.ceil(way / (speed * step))
+    return (head(frames, "thickness = 0.01", "[0, 0, 0]", step=step)
+            + cloth("ball", "mesh = \"sphere.obj\"")
+            + block("bat", "[0.1, 0.4, 0.4]", "[3, 5, 5]", "translate = [-0.6, 0.05, 0.02]\n"
+                    + carried(f"velocity = [{speed}, 0, 0]")))
+
+
+SHORT = {
+    "stack10": stack(10, 9, 60),
+    "twist": twist(200),
+    "needle": needle(),
+    "fast_sheets": fast_sheets(),
+    "fold": fold(200),
+    "pressed_blocks": pressed_blocks(100),
+    "knife": knife(),
+    "sphere5": hit_sphere(5.0),
+}
+
+# What is led further in a substep than others can give way.
+TOO_FAST = {
+    "sphere20": hit_sphere(20.0),
+    "sphere100": hit_sphere(100.0),
+}
+
+# Takes minutes.
+LONG = {
+    "stack10": stack(10, 16, 300),
+    "stack50": stack(50, 12, 300),
+    "twist": twist(600),
+    "fold": fold(600),
+    "pressed_blocks": pressed_blocks(400),
+}

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "kernels/contact/truncate.h"
+#include "runtime/row_table.h"
+#include "simulation/mesh/vec3.h"
+#include "tests/kernels/kernel_case.h"
+
+namespace weft::test {
+namespace {
+
+constexpr float kSoft = 0.002f;
+constexpr float kHard = 0.0005f;
+constexpr double kRounding = 1e-6;
+
+Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
+
+/// One vertex with planes of its own.
+struct Cut {
+    Vec3 at;
+    bool is_cut = false;
+};
+
+Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes) {
+    Buffer<int> begin("strips", 2);
+    begin[1] = 1;
+    RowTable table("planes", {&begin, 0, 1, 1}, static_cast<int>(planes.size()));
+    auto& column = table.add_column<float4>("planes");
+    Buffer<float4> positions("positions", 1);
+    Buffer<float4> anchors("anchors", 1);
+    Buffer<float> least("least", 1);
+    Buffer<int> cut("cut", 1);
+    anchors[0] = anchor;
+    positions[0] = {anchor.x + static_cast<float>(way.x), anchor.y + static_cast<float>(way.y),
+                    anchor.z + static_cast<float>(way.z), 1.0f};
+    least[0] = 1e30f;
+    table.counts()[0] = static_cast<int>(planes.size());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+        column[RowTable::kStride * k] = planes[k];
+        least[0] = std::min(least[0], planes[k].w);
+    }
+    const Launch one = launch(kernels::truncate_contacts, Segments{}, positions, anchors, least,
+                              table.rows(), table.counts(), column, cut, kSoft, kHard);
+    run_on_host(one, one.kernel->scalar, 0, 1);
+    return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1};
+}
+
+TEST(Truncation, LeavesAloneWhatIsAllowed) {
+    const Cut end = truncate({0, 0, 0, 0.1f}, {0.003, -0.01, 0.002}, {{0, 1, 0, 0.02f}});
+    EXPECT_FALSE(end.is_cut);
+    EXPECT_EQ(end.at.y, static_cast<double>(-0.01f));
+}
+
+TEST(Truncation, StopsBeforeAPlaneAndLetsSlideAlongIt) {
+    const Cut end = truncate({0, 0, 0, 0.1f}, {0.03, -0.05, 0.02}, {{0, 1, 0, 0.02f}});
+    EXPECT_TRUE(end.is_cut);
+    EXPECT_NEAR(end.at.y, -(0.02 - double{kSoft}), 1e-5);
+    EXPECT_NEAR(end.at.x, 0.03, kRounding) << "what leads along the plane stays";
+    EXPECT_NEAR(end.at.z, 0.02, kRounding);
+}
+
+TEST(Truncation, ExactlyOnThePlaneThereIsNoWayOnAndAllWaysAway) {
+    const float4 plane{0, 1, 0, 0.0f};
+    EXPECT_NEAR(truncate({0, 0, 0, 0.1f}, {0.03, -0.05, 0}, {plane}).at.y, 0.0, 1e-5);
+    EXPECT_NEAR(truncate({0, 0, 0, 0.1f}, {0.03, -0.05, 0}, {plane}).at.x, 0.03, kRounding);
+    EXPECT_NEAR(truncate({0, 0, 0, 0.1f}, {0.03, 0.05, 0}, {plane}).at.y, 0.05, kRounding);
+}
+
+TEST(Truncation, TheStrictestPlaneCounts) {
+    const Cut end = truncate({0, 0, 0, 1.0f}, {0, -0.5, 0},
+                             {{0, 1, 0, 0.3f}, {0, 1, 0, 0.02f}, {0, 1, 0, 0.2f}});
+    EXPECT_NEAR(end.at.y, -(0.02 - double{kSoft}), 1e-4);
+}
+
+TEST(Truncation, KeepsToItsBall) {
+    const Cut end = truncate({0, 0, 0, 0.05f}, {0.3, 0.4, 0}, {});
+    EXPECT_TRUE(end.is_cut);
+    EXPECT_NEAR(length(end.at), 0.05, kRounding);
+    EXPECT_NEAR(end.at.x, 0.03, kRounding);
+}
+
+/// Random wedges: whatever is asked for, all planes hold, and the ball.
+TEST(Truncation, HoldsBeforeAnyPlanes) {
+    Random random(5);
+    for (int trial = 0; trial < 3000; ++trial) {
+        std::vector<float4> planes;
+        for (int k = random.integer(1, 12); k > 0; --k) {
+            float4 n = random.point(1.0f);
+            const float size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) + 1e-6f;
+            planes.push_back({n.x / size, n.y / size, n.z / size,
+                              random.integer(0, 3) == 0 ? 0.0f : random.real(0.0f, 0.02f)});
+        }
+        const float4 way = random.point(0.1f);
+        const Cut end = truncate({0, 0, 0, 0.03f}, vec(way), planes);
+        EXPECT_LT(length(end.at), 0.03 + kRounding);
+        for (const float4& plane : planes) {
+            const double room = std::max(double{plane.w} - double{kHard}, 0.0);
+            EXPECT_GT(dot(vec(plane), end.at), -room - kRounding);
+        }
+    }
+}
+
+TEST(Truncation, DoesNotDependOnThePlace) {
+    const std::vector<float4> planes{{0, 1, 0, 0.02f}, {0.6f, 0.8f, 0, 0.01f}};
+    const Cut here = truncate({0, 0, 0, 0.1f}, {0.03125, -0.0625, 0.015625}, planes);
+    const Cut there = truncate({8, -4, 2, 0.1f}, {0.03125, -0.0625, 0.015625}, planes);
+    EXPECT_NEAR(length(here.at - there.at), 0.0, 2e-6);
+}
+
+/// What the scene leads over a vertex' place pushes it along.
+TEST(Truncation, MakesWayForAPlaneThatComes) {
+    const Cut still = truncate({0, 0, 0, 0.1f}, {0, 0, 0}, {{0, 1, 0, -0.03f}});
+    EXPECT_TRUE(still.is_cut);
+    EXPECT_NEAR(still.at.y, 0.03, 1e-5);
+    const Cut along =
+        truncate({0, 0, 0, 0.1f}, {0.05, -0.02, 0}, {{0, 1, 0, -0.03f}, {0, -1, 0, 0.05f}});
+    EXPECT_NEAR(along.at.y, 0.03, 1e-4);
+    EXPECT_NEAR(along.at.x, 0.05, 1e-4);
+}
+
+}  // namespace
+}  // namespace weft::test

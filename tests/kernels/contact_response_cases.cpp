@@ -1,0 +1,213 @@
+#include <algorithm>
+
+#include "kernels/contact/begin.h"
+#include "kernels/contact/fill.h"
+#include "kernels/contact/rows.h"
+#include "kernels/contact/truncate.h"
+#include "kernels/descent/free_bodies.h"
+#include "runtime/row_table.h"
+#include "tests/kernels/kernel_case.h"
+
+namespace weft::test {
+namespace {
+
+constexpr float kSize = 0.3f;
+constexpr float kRange = 0.1f;
+constexpr int kRoom = 6;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Points of which some are held; degenerate: many in one place.
+Buffer<float4>& add_points(KernelCase& c, const std::string& name, int count) {
+    auto& points = c.add<float4>(name, count);
+    for (float4& x : points.span()) {
+        x = c.random.point(kSize);
+        if (c.flavour == Flavour::kDegenerate && c.random.integer(0, 1) == 0) x = points[0];
+        x.w = c.random.integer(0, 5) == 0 ? 0.0f : c.random.real(0.5f, 2.0f);
+    }
+    return points;
+}
+
+Buffer<int>& add_indices(KernelCase& c, const std::string& name, int count, int end) {
+    auto& indices = c.add<int>(name, count);
+    for (int& index : indices.span()) index = c.random.integer(0, end - 1);
+    return indices;
+}
+
+/// The rows of a table as RowTable places them, of all lengths.
+struct Rows {
+    Buffer<int>& rows;
+    Buffer<int>& counts;
+    int entries = 0;
+
+    Rows(KernelCase& c, const std::string& name, int items, int room)
+        : rows(c.add<int>(name + ".rows", 2 * items)), counts(c.add<int>(name + ".counts", items)) {
+        Buffer<int> begin("strips", 2);
+        begin[1] = items;
+        RowTable table("table", {&begin, 0, 1, 1}, room);
+        std::copy_n(table.rows().data(), rows.count(), rows.data());
+        entries = static_cast<int>(table.add_column<int>("others").count());
+        for (int& count : counts.span()) count = c.random.integer(0, c.random.integer(0, room));
+    }
+};
+
+Buffer<float4>& add_normals(KernelCase& c, const std::string& name, int count, float low,
+                            float high) {
+    auto& normals = c.add<float4>(name, count);
+    for (float4& n : normals.span()) {
+        n = c.random.point(1.0f);
+        const float size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) + 1e-6f;
+        n = {n.x / size, n.y / size, n.z / size, c.random.real(low, high)};
+    }
+    return normals;
+}
+
+void begin_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& previous = add_points(c, "previous", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    auto& goals = c.add<float4>("goals", c.items);
+    auto& anchors = c.add<float4>("anchors", c.items);
+    auto& led = c.add<float>("led", 1);
+    led[0] = 0.05f;
+    c.launch = launch(kernels::begin_contacts, c.segments, positions, previous, targets, goals,
+                      anchors, led, 0.1f, 0.3f);
+}
+
+void count_case(KernelCase& c) {
+    auto& cut = add_indices(c, "cut", c.items, 3);
+    auto& counts = add_indices(c, "counts", 2 * c.items, 9);
+    c.launch = launch(kernels::count_cut, c.segments, cut, counts, c.items, kInstance);
+}
+
+void truncate_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& anchors = add_points(c, "anchors", c.items);
+    for (float4& a : anchors.span()) a.w = c.random.real(0.0f, 2.0f * kSize);
+    auto& least = c.add<float>("least", c.items);
+    const float lowest = c.flavour == Flavour::kRandom ? 0.0f : -0.1f;
+    for (float& room : least.span()) room = c.random.real(lowest, 0.2f);
+    Rows planes(c, "planes", c.items, kRoom);
+    auto& entries = add_normals(c, "planes", planes.entries, lowest, 0.2f);
+    auto& cut = c.add<int>("cut", c.items);
+    c.launch = launch(kernels::truncate_contacts, c.segments, positions, anchors, least,
+                      planes.rows, planes.counts, entries, cut, 0.02f, 0.005f);
+}
+
+struct Contacts {
+    Rows rows;
+    Buffer<int>&corner0, &corner1, &corner2, &corner3;
+    Buffer<float4>&normals, &weights, &measures;
+
+    explicit Contacts(KernelCase& c)
+        : rows(c, "contacts", c.items, kRoom),
+          corner0(add_indices(c, "corner0", rows.entries, c.items)),
+          corner1(add_indices(c, "corner1", rows.entries, c.items)),
+          corner2(add_indices(c, "corner2", rows.entries, c.items)),
+          corner3(add_indices(c, "corner3", rows.entries, c.items)),
+          normals(add_normals(c, "normals", rows.entries, -kRange, 2.0f * kRange)),
+          weights(c.add<float4>("weights", rows.entries)),
+          measures(c.add<float4>("measures", rows.entries)) {
+        for (std::size_t e = 0; e < weights.count(); ++e) {
+            const float u = c.random.real(0.0f, 0.5f);
+            const float v = c.random.real(0.0f, 0.5f);
+            weights[e] = {1.0f, -u, -v, u + v - 1.0f};
+            measures[e] = {u, 2.0f * u, c.random.real(1.0f, 1e4f), kRange};
+        }
+    }
+};
+
+void gather_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    auto& vertices = add_indices(c, "vertices", c.items, c.items);
+    Contacts contacts(c);
+    auto& sums = c.add<float>("sums", 9 * c.items);
+    for (float& sum : sums.span()) sum = c.random.real(-1.0f, 1.0f);
+    c.launch = launch(kernels::gather_contacts, c.segments, positions, snapshots, vertices,
+                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
+                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
+                      contacts.measures, sums, c.items, c.items, kIteration);
+}
+
+void snapshot_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
+    c.launch =
+        launch(kernels::take_snapshot, c.segments, positions, snapshots, c.items, kIteration, 1);
+}
+
+/// Lists of random entries: begin [items + 1], list.
+std::pair<Buffer<int>*, Buffer<int>*> add_lists(KernelCase& c, const std::string& name, int items,
+                                                int end) {
+    auto& begin = c.add<int>(name + "_begin", items + 1);
+    for (int i = 0; i < items; ++i) begin[at(i + 1)] = begin[at(i)] + c.random.integer(0, 4);
+    auto& list = add_indices(c, name + "_list", begin[at(items)] + 1, end);
+    return {&begin, &list};
+}
+
+/// A surface of nonsense, and pairs that nobody found: what counts is that all targets make the
+/// same of them.
+void fill_case(KernelCase& c) {
+    const int triangle_count = 2 * c.items;
+    const int edge_count = 3 * c.items;
+    auto& anchors = add_points(c, "anchors", c.items);
+    auto& goals = add_points(c, "goals", c.items);
+    auto& stiffness = c.add<float>("stiffness", c.items);
+    for (float& k : stiffness.span()) k = c.random.real(1.0f, 100.0f);
+    auto& surface = add_indices(c, "surface", c.items, c.items + 1);
+    const auto [triangle_begin, triangle_list] = add_lists(c, "triangle", c.items, triangle_count);
+    const auto [edge_begin, edge_list] = add_lists(c, "edge", c.items, edge_count);
+    auto& triangles = add_indices(c, "triangles", 3 * triangle_count, c.items);
+    auto& edges = add_indices(c, "edges", 2 * edge_count, c.items);
+    auto& apexes = add_indices(c, "apexes", c.items, c.items);
+    Rows vt(c, "vt", c.items, 3);
+    Rows tv(c, "tv", triangle_count, 2);
+    Rows ee(c, "ee", edge_count, 2);
+    auto& vt_others = add_indices(c, "vt.others", vt.entries, 2 * triangle_count);
+    auto& tv_others = add_indices(c, "tv.others", tv.entries, 2 * c.items);
+    auto& ee_others = add_indices(c, "ee.others", ee.entries, 2 * edge_count);
+    Rows plane_rows(c, "planes", c.items, kRoom);
+    auto& plane_needs = add_indices(c, "plane_needs", c.items, 9);
+    auto& planes = c.add<float4>("planes", plane_rows.entries);
+    Contacts contacts(c);
+    auto& needs = add_indices(c, "needs", c.items, 9);
+    auto& least = c.add<float>("least", c.items);
+    auto& nearest = c.add<float>("nearest", c.items);
+    c.launch = launch(kernels::fill_contacts, c.segments, anchors, goals, stiffness, surface,
+                      *triangle_begin, *triangle_list, *edge_begin, *edge_list, triangles, edges,
+                      apexes, vt.rows, vt.counts, vt_others, tv.rows, tv.counts, tv_others, ee.rows,
+                      ee.counts, ee_others, plane_rows.rows, plane_rows.counts, plane_needs, planes,
+                      contacts.rows.rows, contacts.rows.counts, needs, contacts.corner0,
+                      contacts.corner1, contacts.corner2, contacts.corner3, contacts.normals,
+                      contacts.weights, contacts.measures, least, nearest, c.items, triangle_count,
+                      edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
+}
+
+void lags_case(KernelCase& c) {
+    constexpr int kRows = 3;
+    const int entries = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
+    auto& positions = add_points(c, "positions", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    auto& members = add_indices(c, "members", entries, c.items);
+    auto& shares = c.add<float>("shares", entries);
+    for (float& share : shares.span()) share = c.random.real(0.0f, 1.0f);
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = kRows;
+    }
+    auto& contacts = add_indices(c, "contacts", c.items, 2);
+    auto& partials = c.add<float4>("partials", c.items);
+    c.launch = launch(kernels::add_lags_and_contacts, c.segments, positions, targets, members,
+                      shares, rows, contacts, partials);
+}
+
+const bool added =
+    add_case("begin_contacts", begin_case) && add_case("count_cut", count_case) &&
+    add_case("truncate_contacts", truncate_case) && add_case("gather_contacts", gather_case) &&
+    add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
+    add_case("add_lags_and_contacts", lags_case);
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,296 @@
+#include "tests/simulation/contact/pair_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "simulation/families/convert.h"
+
+namespace weft::test {
+
+namespace {
+
+/// Of lengths and of angles: what single precision cannot tell apart.
+constexpr double kRounding = 2e-5;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<int> patches_of(const std::vector<int>& begin) {
+    std::vector<int> patches;
+    for (std::size_t p = 0; p + 1 < begin.size(); ++p) {
+        patches.insert(patches.end(), index(begin[p + 1] - begin[p]), static_cast<int>(p));
+    }
+    return patches;
+}
+
+template <class A, class B>
+bool share(const A& a, const B& b) {
+    return std::ranges::any_of(a, [&](int v) { return std::ranges::find(b, v) != b.end(); });
+}
+
+/// Of two answers to one question.
+Verdict both_of(bool surely, bool perhaps) {
+    return surely ? Verdict::kPushing : (perhaps ? Verdict::kEither : Verdict::kNone);
+}
+
+}  // namespace
+
+PairOracle::PairOracle(const ContactMesh& mesh, const Surface& surface,
+                       const PairSettings& settings)
+    : mesh_(mesh),
+      surface_(surface),
+      settings_(settings),
+      patch_of_vertex_(patches_of(surface.patch_vertices)),
+      patch_of_triangle_(patches_of(surface.patch_triangles)),
+      patch_of_edge_(patches_of(surface.patch_edges)) {
+    for (int p = 0; p < surface.patch_count(); ++p) patches_.push_back(patch(p));
+}
+
+Vec3 PairOracle::at(int vertex) const {
+    return to_vec3(mesh_.anchors[index(surface_.vertices[index(vertex)])]);
+}
+
+double PairOracle::reach(int vertex) const {
+    return static_cast<double>(mesh_.anchors[index(surface_.vertices[index(vertex)])].w);
+}
+
+PairOracle::Patch PairOracle::patch(int p) const {
+    Patch patch;
+    double height = 1e30;
+    double farthest = 0.0;
+    std::vector<Vec3> normals;
+    std::set<int> faces;
+    for (int t = 0; t < surface_.triangle_count(); ++t) {
+        if (patch_of_triangle_[index(t)] == p) faces.insert(t);
+    }
+    for (const int t : surface_.faces[p]) faces.insert(t);
+    for (const int t : faces) {
+        const auto& x = surface_.triangles[index(t)];
+        normals.push_back(cross(at(x[1]) - at(x[0]), at(x[2]) - at(x[0])));
+        patch.mean = patch.mean + normals.back();
+        const auto rest = [&](std::size_t k) {
+            return mesh_.mesh.rest[index(surface_.vertices[index(x[k])])];
+        };
+        double longest = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            farthest = std::max(farthest, reach(x[k]));
+            longest = std::max(longest, length(rest(k) - rest((k + 1) % 3)));
+        }
+        const double area = length(cross(rest(1) - rest(0), rest(2) - rest(0)));
+        height = std::min(height, longest > 0.0 ? area / longest : 0.0);
+    }
+    if (length(patch.mean) < kRounding) return patch;
+    patch.mean = normalized(patch.mean);
+    double least = 1.0;
+    for (const Vec3& n : normals) {
+        least = std::min(least, length(n) > 0.0 ? dot(normalized(n), patch.mean) : -1.0);
+    }
+    const double spare = std::min(0.4 * height - farthest, least - std::sqrt(0.75));
+    patch.flat = spare > 0.0;
+    patch.near_limit = std::abs(spare) < kRounding;
+    return patch;
+}
+
+Verdict PairOracle::near(int p, int q) const {
+    const bool same_body = surface_.patch_body[index(p)] == surface_.patch_body[index(q)];
+    if (!settings_.self && same_body) return Verdict::kNone;
+    if (surface_.patch_held[index(p)] != 0 && surface_.patch_held[index(q)] != 0) {
+        return Verdict::kNone;
+    }
+    const auto list = surface_.beside[p];
+    const auto found = std::ranges::find(list, q);
+    if (found == list.end()) return Verdict::kPair;
+    const auto entry = surface_.beside.begin[index(p)] + (found - list.begin());
+    bool flat = true;
+    bool near_limit = false;
+    const std::array<int, 3> all{p, q, surface_.between[static_cast<std::size_t>(entry)]};
+    for (const int one : all) {
+        const Patch& a = patches_[index(one)];
+        near_limit = near_limit || a.near_limit;
+        flat = flat && a.flat;
+        for (const int other : all) {
+            const double spare =
+                one == other ? 1.0 : dot(a.mean, patches_[index(other)].mean) - 0.5;
+            near_limit = near_limit || std::abs(spare) < kRounding;
+            flat = flat && spare > 0.0;
+        }
+    }
+    if (near_limit) return Verdict::kEither;
+    return flat ? Verdict::kNone : Verdict::kPair;
+}
+
+/// In single precision: so it is defined.
+template <class A, class B>
+bool PairOracle::boxes_meet(const A& a, const B& b) const {
+    const auto bounds = [&](const auto& vertices, int axis) {
+        float low = 3e38f;
+        float high = -3e38f;
+        for (const int v : vertices) {
+            const float4& x = mesh_.anchors[index(surface_.vertices[index(v)])];
+            const float c = axis == 0 ? x.x : axis == 1 ? x.y : x.z;
+            const float q = x.w + 0.25f * settings_.thickness;
+            low = std::min(low, c - q);
+            high = std::max(high, c + q);
+        }
+        return std::pair(low, high);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = bounds(a, axis);
+        const auto [other_low, other_high] = bounds(b, axis);
+        if (!(low <= other_high && high >= other_low)) return false;
+    }
+    return true;
+}
+
+PairOracle::Distance PairOracle::to_triangle(int vertex, const std::array<int, 3>& t) const {
+    const Vec3 p = at(vertex);
+    const std::array<Vec3, 3> x{at(t[0]), at(t[1]), at(t[2])};
+    Distance best;
+    const auto consider = [&](double a, double b, double c) {
+        const Vec3 way = p - (a * x[0] + b * x[1] + c * x[2]);
+        if (length(way) < best.d) best = {length(way), way, {a, b, c}};
+    };
+    const Vec3 n = cross(x[1] - x[0], x[2] - x[0]);
+    if (dot(n, n) > 1e-10 * dot(x[1] - x[0], x[1] - x[0]) * dot(x[2] - x[0], x[2] - x[0])) {
+        const double b = dot(cross(p - x[0], x[2] - x[0]), n) / dot(n, n);
+        const double c = dot(cross(x[1] - x[0], p - x[0]), n) / dot(n, n);
+        if (b > 0.0 && c > 0.0 && b + c < 1.0) consider(1.0 - b - c, b, c);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 side = x[(k + 1) % 3] - x[k];
+        const double square = dot(side, side);
+        const double s = square > 0.0 ? std::clamp(dot(p - x[k], side) / square, 0.0, 1.0) : 0.0;
+        std::array<double, 3> w{};
+        w[k] = 1.0 - s;
+        w[(k + 1) % 3] = s;
+        consider(w[0], w[1], w[2]);
+    }
+    return best;
+}
+
+PairOracle::Distance PairOracle::between(int edge, int other) const {
+    const auto& e = surface_.edges[index(std::min(edge, other))];
+    const auto& f = surface_.edges[index(std::max(edge, other))];
+    const Vec3 a = at(e[0]);
+    const Vec3 b = at(f[0]);
+    const Vec3 u = at(e[1]) - a;
+    const Vec3 v = at(f[1]) - b;
+    Distance best;
+    const auto consider = [&](double s, double t) {
+        const Vec3 way = a + s * u - b - t * v;
+        if (length(way) < best.d) best = {length(way), way, {1.0 - s, s, 1.0 - t, t}};
+    };
+    const Vec3 n = cross(u, v);
+    if (dot(n, n) > 1e-10 * dot(u, u) * dot(v, v)) {
+        const double s = dot(cross(v, a - b), n) / dot(n, n);
+        const double t = dot(cross(u, a - b), n) / dot(n, n);
+        if (s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) consider(s, t);
+    }
+    const auto foot = [](Vec3 way, Vec3 side) {
+        return dot(side, side) > 0.0 ? std::clamp(dot(way, side) / dot(side, side), 0.0, 1.0) : 0.0;
+    };
+    consider(0.0, foot(a - b, v));
+    consider(1.0, foot(a + u - b, v));
+    consider(foot(b - a, u), 0.0);
+    consider(foot(b + v - a, u), 1.0);
+    return best;
+}
+
+Verdict PairOracle::verdict(double d, double reaches, Verdict pushes) const {
+    const double to_meet = reaches + static_cast<double>(settings_.least) - d;
+    const double to_push = reaches + 0.5 * static_cast<double>(settings_.thickness) - d;
+    if (to_push < -kRounding) return Verdict::kNone;
+    if (std::abs(to_push) < kRounding || std::abs(to_meet) < kRounding) return Verdict::kEither;
+    if (to_meet > 0.0) {
+        return pushes == Verdict::kNone ? Verdict::kPair : pushes;
+    }
+    return pushes;
+}
+
+/// A face, an edge or a corner pushes what is in its part of space, and once.
+Verdict PairOracle::pushes(int vertex, int triangle, const Distance& d) const {
+    const auto& t = surface_.triangles[index(triangle)];
+    if (d.d < kRounding) return Verdict::kEither;
+    if (std::ranges::any_of(d.weights, [](double w) { return w > 0.0 && w < kRounding; })) {
+        return Verdict::kEither;
+    }
+    std::vector<int> support;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (d.weights[k] > 0.0) support.push_back(t[k]);
+    }
+    if (support.size() == 3) return Verdict::kPushing;
+    // Where the foot on another side is as near, single precision may take that one.
+    const Vec3 n = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
+    if (length(n) < 1e-3) return Verdict::kEither;
+    int lowest = -1;
+    for (int other = surface_.triangle_count() - 1; other >= 0; --other) {
+        const auto& x = surface_.triangles[index(other)];
+        const bool has_all =
+            std::ranges::all_of(support, [&](int v) { return std::ranges::find(x, v) != x.end(); });
+        if (has_all) lowest = other;
+    }
+    if (lowest != triangle) return Verdict::kNone;
+    bool surely = true;
+    bool perhaps = true;
+    const auto ask = [&](double value) {
+        surely = surely && value > kRounding;
+        perhaps = perhaps && value > -kRounding;
+    };
+    if (support.size() == 1) {
+        const int corner = support.front();
+        if (!(vertex < corner)) return Verdict::kNone;
+        for (const auto& e : surface_.edges) {
+            if (e[0] == corner) ask(dot(d.way, at(corner) - at(e[1])));
+            if (e[1] == corner) ask(dot(d.way, at(corner) - at(e[0])));
+        }
+        return both_of(surely, perhaps);
+    }
+    int others = 0;
+    for (const auto& x : surface_.triangles) {
+        if (&x == &t || !share(x, std::vector{support[0]}) || !share(x, std::vector{support[1]})) {
+            continue;
+        }
+        for (const int v : x) {
+            if (v == support[0] || v == support[1]) continue;
+            if (others++ == 0) ask(dot(d.way, at(vertex) - d.way - at(v)));
+        }
+    }
+    return both_of(surely, perhaps);
+}
+
+Verdict PairOracle::vertex_triangle(int vertex, int triangle) const {
+    const auto& t = surface_.triangles[index(triangle)];
+    const std::array<int, 1> v{vertex};
+    if (share(v, t) || !boxes_meet(v, t)) return Verdict::kNone;
+    const Verdict together =
+        near(patch_of_vertex_[index(vertex)], patch_of_triangle_[index(triangle)]);
+    if (together == Verdict::kNone) return together;
+    const Distance d = to_triangle(vertex, t);
+    const double reaches = reach(vertex) + std::max({reach(t[0]), reach(t[1]), reach(t[2])});
+    const Verdict found = verdict(d.d, reaches, pushes(vertex, triangle, d));
+    return together == Verdict::kEither && found != Verdict::kNone ? Verdict::kEither : found;
+}
+
+Verdict PairOracle::edge_edge(int edge, int other) const {
+    const auto& e = surface_.edges[index(edge)];
+    const auto& f = surface_.edges[index(other)];
+    if (share(e, f) || !boxes_meet(e, f)) return Verdict::kNone;
+    const Verdict together = near(patch_of_edge_[index(edge)], patch_of_edge_[index(other)]);
+    if (together == Verdict::kNone) return together;
+    const Distance d = between(edge, other);
+    const Vec3 u = at(e[1]) - at(e[0]);
+    const Vec3 v = at(f[1]) - at(f[0]);
+    const bool inside = std::ranges::all_of(d.weights, [](double w) { return w > 0.0; });
+    // The nearer to parallel, the worse is known where they cross.
+    const double sine = length(cross(u, v)) / (length(u) * length(v));
+    const double limit = (kRounding + 1e-3 * d.d / length(u)) / std::max(sine, 1e-9);
+    const bool at_limit =
+        std::ranges::any_of(d.weights, [&](double w) { return w > 0.0 && w < limit; });
+    const Verdict pushing =
+        at_limit ? Verdict::kEither : (inside ? Verdict::kPushing : Verdict::kNone);
+    const double reaches = std::max(reach(e[0]), reach(e[1])) + std::max(reach(f[0]), reach(f[1]));
+    const Verdict found = verdict(d.d, reaches, pushing);
+    return together == Verdict::kEither && found != Verdict::kNone ? Verdict::kEither : found;
+}
+
+}  // namespace weft::test

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/contact/pairs.h"
+#include "tests/simulation/contact/contact_meshes.h"
+
+namespace weft::test {
+
+/// What a pair is to be found as; kEither: in double precision it is too near to a limit to tell.
+enum class Verdict { kNone, kPair, kPushing, kEither };
+
+/// Everything against everything, in double precision and by the definitions.
+class PairOracle {
+public:
+    PairOracle(const ContactMesh& mesh, const Surface& surface, const PairSettings& settings);
+
+    Verdict vertex_triangle(int vertex, int triangle) const;
+    Verdict edge_edge(int edge, int other) const;
+
+private:
+    struct Distance {
+        double d = 1e30;
+        Vec3 way{};
+        std::vector<double> weights;
+    };
+    struct Patch {
+        bool flat = false;
+        bool near_limit = false;  ///< of being flat
+        Vec3 mean{};
+    };
+
+    Vec3 at(int vertex) const;
+    double reach(int vertex) const;
+    Distance to_triangle(int vertex, const std::array<int, 3>& t) const;
+    Distance between(int edge, int other) const;
+    Patch patch(int p) const;
+    /// Whether these patches are looked at together.
+    Verdict near(int p, int q) const;
+    template <class A, class B>
+    bool boxes_meet(const A& a, const B& b) const;
+    Verdict verdict(double d, double reaches, Verdict pushes) const;
+    Verdict pushes(int vertex, int triangle, const Distance& d) const;
+
+    const ContactMesh& mesh_;
+    const Surface& surface_;
+    PairSettings settings_;
+    std::vector<int> patch_of_vertex_, patch_of_triangle_, patch_of_edge_;
+    std::vector<Patch> patches_;
+};
+
+}  // namespace weft::test

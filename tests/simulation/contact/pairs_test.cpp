@@ -1,0 +1,269 @@
+// What devices find is what brute force finds, as a set and in order; and has the same bits on
+// every device, by every division, and whatever room the tables begin with.
+
+#include "simulation/contact/pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "runtime/executor.h"
+#include "runtime/opencl/opencl_device.h"
+#include "runtime/tbb/cpu_device.h"
+#include "tests/simulation/contact/pair_oracle.h"
+#include "tests/simulation/run/manual_run.h"
+
+namespace weft::test {
+namespace {
+
+constexpr int kPlenty = 200;
+
+using Devices = std::vector<std::unique_ptr<Device>>;
+using Rows = std::vector<std::vector<int>>;
+
+Devices cpus(int count, int lanes = 8) {
+    Devices devices;
+    for (int d = 0; d < count; ++d) devices.push_back(make_cpu_device(1, {}, lanes));
+    return devices;
+}
+
+void add_opencl(Devices& devices, MemoryModel memory, int lanes, bool per_colour) {
+    DeviceOptions options;
+    options.memory = memory;
+    options.opencl_lanes = lanes;
+    options.per_colour = per_colour;
+    for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
+}
+
+struct Found {
+    Rows vt, tv, ee;
+    friend bool operator==(const Found&, const Found&) = default;
+};
+
+/// One surface, found on some devices.
+class Detection {
+public:
+    Detection(const ContactMesh& mesh, Devices devices, int room)
+        : anchors_("anchors", mesh.anchors.size()),
+          strip_begin_("strips", mesh.strips.begin.size()),
+          strips_{&strip_begin_, 0, 1, mesh.strips.count()},
+          devices_(std::move(devices)) {
+        std::ranges::copy(mesh.anchors, anchors_.data());
+        std::ranges::copy(mesh.strips.begin, strip_begin_.data());
+        const PairSettings settings{mesh.thickness, 0.1f * mesh.thickness, mesh.self, room};
+        pairs = std::make_unique<ContactPairs>(make_surface(mesh.mesh, mesh.strips), mesh.mesh.rest,
+                                               anchors_, strips_, settings, 0);
+        std::vector<Device*> pointers;
+        for (const auto& device : devices_) pointers.push_back(device.get());
+        executor_ = std::make_unique<Executor>(pointers, pairs->bodies());
+    }
+
+    /// Two substeps, again until there is room.
+    Found find(const Division& division) {
+        for (int round = 0; round < 9; ++round) {
+            const Step step = make_step(division.partition());
+            executor_->run(step, plan_in_order(step, division), 2);
+            if (!make_room())
+                return {rows_of(pairs->vt()), rows_of(pairs->tv()), rows_of(pairs->ee())};
+            ++redone;
+        }
+        ADD_FAILURE() << "there is never enough room";
+        return {};
+    }
+    Found find() {
+        return find(
+            Division::proportional(strips_.strip_count, std::vector<double>(devices_.size(), 1.0)));
+    }
+    Rows near() { return rows_of(pairs->near()); }
+    int strip_count() const { return strips_.strip_count; }
+
+    std::unique_ptr<ContactPairs> pairs;
+    int redone = 0;
+
+private:
+    Step make_step(const Partition& partition) {
+        Step step;
+        const int regions = static_cast<int>(partition.parts.size());
+        for (int r = 0; r < regions; ++r)
+            pairs->add_boxes(step, partition.parts[static_cast<std::size_t>(r)], r);
+        for (int r = 0; r < regions; ++r)
+            pairs->add_near(step, partition.parts[static_cast<std::size_t>(r)], r);
+        for (int r = 0; r < regions; ++r)
+            pairs->add_pairs(step, partition.parts[static_cast<std::size_t>(r)], r);
+        step.seal();
+        return step;
+    }
+
+    bool make_room() {
+        bool grew = false;
+        for (RowTable* table : pairs->tables()) {
+            executor_->fetch(table->needs());
+            if (!table->overflowed()) continue;
+            table->grow();
+            executor_->rebind(table->resized_buffers());
+            for (BufferStorage* buffer : table->written_buffers()) executor_->host_wrote(*buffer);
+            grew = true;
+        }
+        return grew;
+    }
+
+    Rows rows_of(ContactPairs::Table& t) {
+        executor_->fetch(t.table.counts());
+        executor_->fetch(t.others);
+        Rows rows;
+        for (int i = 0; i < t.table.item_count(); ++i) {
+            const auto item = static_cast<std::size_t>(i);
+            std::vector<int> row;
+            for (int k = 0; k < t.table.counts()[item]; ++k) {
+                row.push_back(t.others[static_cast<std::size_t>(t.table.rows()[item] +
+                                                                RowTable::kStride * k)]);
+            }
+            rows.push_back(std::move(row));
+        }
+        return rows;
+    }
+
+    Buffer<float4> anchors_;
+    Buffer<int> strip_begin_;
+    Segments strips_;
+    Devices devices_;
+    std::unique_ptr<Executor> executor_;
+};
+
+/// Both tables hold the same pairs.
+Rows transposed(const Rows& rows, std::size_t count) {
+    Rows others(count);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (const int entry : rows[i]) {
+            others[static_cast<std::size_t>(entry / 2)].push_back(2 * static_cast<int>(i) +
+                                                                  entry % 2);
+        }
+    }
+    return others;
+}
+
+class ContactPairsOf : public testing::TestWithParam<std::size_t> {
+protected:
+    const ContactMesh mesh_ = contact_meshes()[GetParam()];
+};
+
+/// What a row has and what it should have; true: there are pairs to be sure of.
+template <class Judge>
+int expect_row(const std::vector<int>& row, int count, const std::string& what, Judge judge) {
+    EXPECT_TRUE(std::ranges::is_sorted(row)) << what;
+    int sure = 0;
+    for (int other = 0; other < count; ++other) {
+        const bool found = std::ranges::find(row, 2 * other) != row.end();
+        const bool pushing = std::ranges::find(row, 2 * other + 1) != row.end();
+        EXPECT_FALSE(found && pushing) << what << " twice with " << other;
+        const Verdict verdict = judge(other);
+        if (verdict == Verdict::kEither) continue;
+        EXPECT_EQ(found, verdict == Verdict::kPair) << what << " with " << other;
+        EXPECT_EQ(pushing, verdict == Verdict::kPushing) << what << " with " << other;
+        sure += verdict != Verdict::kNone;
+    }
+    return sure;
+}
+
+TEST_P(ContactPairsOf, AreWhatBruteForceFinds) {
+    Detection run(mesh_, cpus(1), kPlenty);
+    const Found found = run.find();
+    const Surface& s = run.pairs->surface();
+    const PairOracle oracle(mesh_, s, run.pairs->settings());
+    int sure = 0;
+    for (int v = 0; v < s.vertex_count(); ++v) {
+        sure += expect_row(found.vt[static_cast<std::size_t>(v)], s.triangle_count(),
+                           "vertex " + std::to_string(v),
+                           [&](int t) { return oracle.vertex_triangle(v, t); });
+    }
+    for (int e = 0; e < s.edge_count(); ++e) {
+        sure +=
+            expect_row(found.ee[static_cast<std::size_t>(e)], s.edge_count(),
+                       "edge " + std::to_string(e), [&](int f) { return oracle.edge_edge(e, f); });
+    }
+    EXPECT_EQ(found.tv, transposed(found.vt, s.triangles.size()));
+    EXPECT_EQ(found.ee, transposed(found.ee, s.edges.size()));
+    RecordProperty("sure_pairs", sure);
+    if (mesh_.name == "flat") {
+        const Rows near = run.near();
+        for (int p = 0; p < s.patch_count(); ++p) {
+            const auto beside = s.beside[p];
+            for (const int q : near[static_cast<std::size_t>(p)]) {
+                EXPECT_EQ(std::ranges::find(beside, q), beside.end()) << p << " and " << q;
+            }
+        }
+    } else if (mesh_.name != "in one place" && mesh_.name != "aligned") {
+        EXPECT_GT(sure, 50);
+    }
+}
+
+/// Parallel edges above each other, and vertices above vertices: each of these pushes once.
+TEST(ContactPairs, OfSheetsExactlyAboveEachOtherPushVertexByVertex) {
+    const ContactMesh mesh = contact_meshes()[1];
+    ASSERT_EQ(mesh.name, "aligned");
+    const Found found = Detection(mesh, cpus(1), kPlenty).find();
+    const auto pushing = [](const Rows& rows) {
+        std::ptrdiff_t count = 0;
+        for (const auto& row : rows) {
+            count += std::ranges::count_if(row, [](int entry) { return entry % 2 == 1; });
+        }
+        return count;
+    };
+    EXPECT_EQ(2 * pushing(found.vt), std::ssize(mesh.mesh.rest));
+    EXPECT_EQ(pushing(found.ee), 0);
+}
+
+TEST_P(ContactPairsOf, AreTheSameByEveryCutOnEveryCpu) {
+    const Found expected = Detection(mesh_, cpus(1), kPlenty).find();
+    for (const int lanes : {1, 8}) {
+        Detection run(mesh_, cpus(2, lanes), 8);
+        for (int cut = 0; cut <= run.strip_count(); ++cut) {
+            EXPECT_EQ(run.find({{cut, run.strip_count() - cut}}), expected)
+                << lanes << " lanes, cut before strip " << cut;
+        }
+    }
+}
+
+TEST_P(ContactPairsOf, AreTheSameWithEveryRoom) {
+    Detection plenty(mesh_, cpus(1), kPlenty);
+    const Found expected = plenty.find();
+    for (const int room : {0, 1, 2, 3, 5, 8, 13, 21}) {
+        Detection run(mesh_, cpus(1), room);
+        EXPECT_EQ(run.find(), expected) << room;
+        if (room == 0 && mesh_.name != "flat") {
+            EXPECT_GT(run.redone, 0);
+        }
+    }
+}
+
+TEST_P(ContactPairsOf, AreTheSameOnOpenClOfEveryKind) {
+    if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    const Found expected = Detection(mesh_, cpus(1), kPlenty).find();
+    for (const MemoryModel memory : {MemoryModel::kHost, MemoryModel::kDiscrete}) {
+        for (const int lanes : {1, 8}) {
+            for (const bool per_colour : {false, true}) {
+                SCOPED_TRACE(testing::Message() << name_of(memory) << ", " << lanes << " lanes, "
+                                                << (per_colour ? "items" : "strips"));
+                Devices alone;
+                add_opencl(alone, memory, lanes, per_colour);
+                EXPECT_EQ(Detection(mesh_, std::move(alone), 5).find(), expected);
+                Devices mixed = cpus(1);
+                add_opencl(mixed, memory, lanes, per_colour);
+                EXPECT_EQ(Detection(mesh_, std::move(mixed), 5).find(), expected);
+            }
+        }
+    }
+}
+
+std::string name_of_mesh(const testing::TestParamInfo<std::size_t>& info) {
+    std::string name = contact_meshes()[info.param].name;
+    std::ranges::replace(name, ' ', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, ContactPairsOf,
+                         testing::Range(std::size_t{0}, contact_meshes().size()), name_of_mesh);
+
+}  // namespace
+}  // namespace weft::test

@@ -1,0 +1,224 @@
+// Obstacles that are meshes: vertices of the model that are led.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/error.h"
+#include "simulation/bodies/mesh_files.h"
+#include "simulation/families/convert.h"
+#include "simulation/model/contact_thickness.h"
+#include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "simulation/start_contacts.h"
+
+namespace weft::test {
+namespace {
+
+std::string scene_with(const std::string& obstacles, const std::string& contact = "[contact]\n") {
+    return R"(
+[scene]
+frames = 4
+dt = 0.01
+substeps = 3
+[solver]
+method = "vbd"
+iterations = 2
+[[cloth]]
+name = "sheet"
+grid = { size = [1.0, 1.0], resolution = [5, 5] }
+translate = [0, 5, 0]
+density = 0.2
+stretch = { stiffness = 100.0 }
+)" + contact +
+           obstacles;
+}
+
+const std::string kFunnel = R"(
+[[obstacle]]
+name = "funnel"
+shape = "mesh"
+cylinder = { radius = [0.5, 0.1], height = 0.4, resolution = [12, 4] }
+translate = [0, 1, 0]
+)";
+
+std::string message_of(const std::string& text) {
+    try {
+        Warnings warnings;
+        const Model model(parse_scene(text, "s.toml"), warnings);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(MeshObstacles, AreVerticesThatNothingMoves) {
+    Warnings warnings;
+    const Model model(parse_scene(scene_with(kFunnel), "s.toml"), warnings);
+    ASSERT_EQ(model.bodies.size(), 2u);
+    EXPECT_EQ(model.bodies[1].kind, "obstacle");
+    EXPECT_EQ(model.bodies[1].first_vertex, 25);
+    EXPECT_EQ(model.bodies[1].vertex_count, 48);
+    EXPECT_EQ(model.triangles.size(), 32u + 72u);
+    EXPECT_EQ(model.moving_pins, nullptr);
+    for (int v = 0; v < model.vertex_count(); ++v) {
+        EXPECT_EQ((*model.positions)[static_cast<std::size_t>(v)].w == 0.0f,
+                  model.scene_vertex(v) >= 25);
+    }
+    // Of the sheet alone: its edges are 1/4, and its diagonals longer.
+    EXPECT_NEAR(model.scene.contact->thickness, 0.25 * 0.25 * (2.0 + std::sqrt(2.0)) / 3.0, 1e-6);
+}
+
+TEST(MeshObstacles, NeedContactAndOneShape) {
+    EXPECT_NE(message_of(scene_with(kFunnel, "")).find("is touched by [contact] alone"),
+              std::string::npos);
+    EXPECT_NE(message_of(scene_with(kFunnel + "grid = { size = [1, 1], resolution = [2, 2] }\n"))
+                  .find("needs exactly one of mesh, grid, cylinder, has 2"),
+              std::string::npos);
+    EXPECT_NE(message_of(scene_with(kFunnel + "friction = 0.3\n")).find("that of [contact]"),
+              std::string::npos);
+    std::string named = kFunnel;
+    named.replace(named.find("\"funnel\""), 8, "\"sheet\"");
+    EXPECT_NE(message_of(scene_with(named)).find("a cloth or solid has that name"),
+              std::string::npos);
+    EXPECT_NE(message_of(scene_with(kFunnel + "motion = { frames = \"none_*.obj\" }\n"))
+                  .find("no file has such a name"),
+              std::string::npos);
+    EXPECT_NE(message_of(scene_with(kFunnel + "motion = { frames = \"none.obj\" }\n"))
+                  .find("expected a *"),
+              std::string::npos);
+}
+
+std::vector<Vec3> positions_after(const std::string& text, const std::string& devices, int frames) {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = devices;
+    options.calibrate = false;
+    options.plan = PlanKind::kSingle;
+    Simulation simulation(parse_scene(text, "s.toml"), options, warnings);
+    for (int f = 0; f < frames; ++f) simulation.advance();
+    const std::vector<float> xyz = simulation.positions();
+    std::vector<Vec3> positions;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+        positions.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    }
+    return positions;
+}
+
+TEST(MeshObstacles, MoveAsTheirParentDoes) {
+    const std::string text = scene_with(R"(
+[[obstacle]]
+name = "hip"
+shape = "sphere"
+center = [0, 1, 0]
+radius = 0.01
+motion = { velocity = [2.0, 0.0, 0.0] }
+)" + kFunnel + "parent = \"hip\"\nmotion = { angular_velocity = 1000.0, axis = [0, 1, 0] }\n");
+    const std::vector<Vec3> start = positions_after(text, "cpu/1", 0);
+    const std::vector<Vec3> end = positions_after(text, "cpu/1", 4);
+    const Frame map = Motion{.angular_velocity = 1000.0, .center = {0, 1, 0}}.displacement(0.04);
+    for (std::size_t v = 25; v < start.size(); ++v) {
+        EXPECT_LT(length(end[v] - (map.to_world(start[v]) + Vec3{0.08, 0, 0})), 1e-6);
+    }
+}
+
+class FramesOfAnObstacle : public testing::Test {
+protected:
+    FramesOfAnObstacle() {
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+        for (const int frame : {0, 1, 2, 10}) write(frame, 3);
+    }
+
+    /// At (frame, 2 frame, 0), the larger the later.
+    void write(int frame, int vertices) {
+        std::ofstream file(folder_ / ("body_" + std::to_string(frame) + ".obj"));
+        const double size = 1.0 + 0.5 * frame;
+        const Vec3 corners[] = {{0, 0, 0}, {size, 0, 0}, {0, 0, size}, {0, size, 0}};
+        for (int v = 0; v < vertices; ++v) {
+            file << "v " << corners[v].x + frame << ' ' << corners[v].y + 2 * frame << ' '
+                 << corners[v].z << '\n';
+        }
+        file << "f 1 2 3\n";
+    }
+    std::string scene(const std::string& motion) const {
+        return scene_with("[[obstacle]]\nname = \"body\"\nshape = \"mesh\"\nmesh = \"" +
+                          (folder_ / "body_0.obj").string() + "\"\ntranslate = [0, 0, 7]\n" +
+                          "motion = { frames = \"" + (folder_ / "body_*.obj").string() + "\"" +
+                          motion + " }\n");
+    }
+
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "weft_frames";
+};
+
+TEST_F(FramesOfAnObstacle, AreInTheOrderOfTheirNumbers) {
+    const Scene read = parse_scene(scene(""), "s.toml");
+    std::vector<std::string> names;
+    for (const std::string& file : frame_files(read.mesh_obstacles[0])) {
+        names.push_back(std::filesystem::path(file).filename().string());
+    }
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"body_0.obj", "body_1.obj", "body_2.obj", "body_10.obj"}));
+    EXPECT_EQ(mesh_files(read).size(), 5u);
+}
+
+TEST_F(FramesOfAnObstacle, AreReachedAndThenHeld) {
+    const auto corner = [&](const std::string& motion, int frames) {
+        return positions_after(scene(motion), "cpu/1", frames)[26];
+    };
+    EXPECT_EQ(corner("", 0), (Vec3{1, 0, 7}));
+    EXPECT_EQ(corner("", 1), (Vec3{2.5, 2, 7}));
+    EXPECT_EQ(corner("", 3), (Vec3{16, 20, 7}));
+    EXPECT_EQ(corner("", 4), (Vec3{16, 20, 7}));
+    EXPECT_EQ(corner(", frame_time = 0.02", 1), (Vec3{1.75, 1, 7}));
+    const std::vector<Vec3> one = positions_after(scene(""), "cpu/1", 2);
+    EXPECT_EQ(positions_after(scene(""), "opencl:0/1", 2), one);
+}
+
+TEST_F(FramesOfAnObstacle, MustHaveTheSameVertices) {
+    write(1, 4);
+    EXPECT_NE(message_of(scene("")).find("body_1.obj: 4 vertices, and obstacle 'body' has 3"),
+              std::string::npos);
+}
+
+std::string told_of_start(const std::string& text) {
+    Warnings warnings;
+    const Model model(parse_scene(text, "s.toml"), warnings);
+    try {
+        check_start_contacts(model, OnCrossing::kStop, warnings);
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(MeshObstacles, AreLookedAtAtTheStart) {
+    EXPECT_EQ(told_of_start(scene_with(kFunnel)), "");
+    std::string through = kFunnel;
+    through.replace(through.find("[0, 1, 0]"), 9, "[0, 5, 0]");
+    EXPECT_NE(told_of_start(scene_with(through)).find("obstacle 'funnel' triangle"),
+              std::string::npos);
+    // Those that lead their own way may cross each other.
+    std::string other = kFunnel;
+    other.replace(other.find("\"funnel\""), 8, "\"other\"");
+    EXPECT_EQ(told_of_start(scene_with(kFunnel + other + "rotate = [0, 0, 1, 30]\n")), "");
+}
+
+TEST(MeshObstacles, SwallowOnlyWhereTheyAreClosed) {
+    const std::string path = testing::TempDir() + "weft_box.obj";
+    std::ofstream(path) << "v -1 4 -1\nv 1 4 -1\nv 1 4 1\nv -1 4 1\n"
+                           "v -1 6 -1\nv 1 6 -1\nv 1 6 1\nv -1 6 1\n"
+                           "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+    const std::string box =
+        "[[obstacle]]\nname = \"box\"\nshape = \"mesh\"\nmesh = \"" + path + "\"\n";
+    EXPECT_NE(told_of_start(scene_with(box)).find("cloth 'sheet' lies inside obstacle 'box'"),
+              std::string::npos);
+    std::string open = kFunnel;
+    open.replace(open.find("[0.5, 0.1]"), 10, "[0.9, 0.8]");
+    open.replace(open.find("[0, 1, 0]"), 9, "[0, 5, 0]");
+    EXPECT_EQ(told_of_start(scene_with(open)), "");
+}
+
+}  // namespace
+}  // namespace weft::test
