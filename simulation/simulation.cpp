@@ -71,7 +71,8 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
                                      host_threads(devices))),
       first_substeps_(model_->scene.substeps),
       most_iterations_(model_->scene.solver.iterations) {
-    if (options.on_trouble != OnTrouble::kIgnore) {
+    // Contact is no part of the E that the samples know.
+    if (options.on_trouble != OnTrouble::kIgnore && !model_->scene.contact) {
         samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
     }
     warn_of_start(*model_, warnings);

@@ -33,6 +33,9 @@ void refuse_contact(const Scene& scene) {
     if (scene.contact->friction) {
         throw UserError(path + ": contact.friction is not there yet; leave it out");
     }
+    if (scene.solver.tolerance > 0.0) {
+        throw UserError(path + ": solver.tolerance knows nothing of [contact] yet; leave it out");
+    }
 }
 
 }  // namespace
