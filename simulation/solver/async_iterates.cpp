@@ -90,6 +90,9 @@ AsyncIterates::AsyncIterates(const Model& model, std::unique_ptr<Solver> solver,
             "--plan async: the scene's solver has no asynchronous form; xpbd, vbd, sosd "
             "and jpgd have one");
     }
+    if (model.scene.contact) {
+        throw UserError("--plan async: [contact] has no asynchronous form yet");
+    }
     add_exchanges();
 }
 
