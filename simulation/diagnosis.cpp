@@ -50,6 +50,7 @@ private:
         for (const Task& task : step_.tasks()) {
             Step one;
             one.add(task);
+            one.seal();
             executor_.run(one, plan_of_one_task(), 1, substep);
             if (auto bad = find_non_finite(model_)) {
                 return Finding{substep, &task, {Alarm::Kind::kNoState, bad->what, bad->vertex}};

@@ -1,6 +1,7 @@
 """Nothing passes through anything, as ipctk and libigl see it: in no substep, and not on the way
 from one to the next. WEFT_LONG=1 takes larger scenes, too."""
 
+import json
 import os
 import pathlib
 import subprocess
@@ -29,23 +30,11 @@ def simulate(folder, text, *arguments):
                              "--no-trace", "--out", "out", "--json", *arguments],
                             cwd=folder, capture_output=True, text=True, timeout=1200)
     assert result.returncode == 0, result.stderr
-    return oracle.read_run(pathlib.Path(folder) / "out"), result.stdout + result.stderr
+    out = pathlib.Path(folder) / "out"
+    return oracle.read_run(out), json.loads((out / "summary.json").read_text())
 
 
-# What is led faster than it can be made way for: not guaranteed, but told.
-TOO_FAST = ("sphere20", "sphere100")
-
-
-@pytest.mark.parametrize("name", TOO_FAST)
-def test_what_may_have_passed_is_told(tmp_path, name):
-    run, said = simulate(tmp_path, scenes.SHORT[name])
-    assert oracle.steps_that_collide(run) == [] or "found no place" in said
-
-
-KEPT = [(name, text) for name, text in CASES if name not in TOO_FAST]
-
-
-@pytest.mark.parametrize("text", [text for _, text in KEPT], ids=[name for name, _ in KEPT])
+@pytest.mark.parametrize("text", [text for _, text in CASES], ids=[name for name, _ in CASES])
 def test_nothing_passes(tmp_path, text):
     run, _ = simulate(tmp_path, text)
     crossing = oracle.frames_that_cross(run)

@@ -87,7 +87,8 @@ def in_root(root, *command, writable=None, read_only=()):
     if writable:
         binds += ["--bind", writable, "/work"]
     environment = ["--clearenv", "--setenv", "PATH", "/usr/sbin:/usr/bin:/sbin:/bin", "--setenv", "HOME", "/work"]
-    result = subprocess.run(["bwrap", "--bind", root, "/", "--proc", "/proc", "--dev", "/dev", *binds, "--unshare-all",
+    result = subprocess.run(["bwrap", "--bind", root, "/", "--proc", "/proc", "--ro-bind", "/sys", "/sys", "--dev", "/dev",
+                             *binds, "--unshare-all",
                              *environment, "--", *command], text=True, capture_output=True)
     assert result.returncode == 0, result.stdout + result.stderr
     return result.stdout
