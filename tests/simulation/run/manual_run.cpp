@@ -64,7 +64,11 @@ void ManualRun::run_frame(const Division& division, int substeps) {
         before.emplace_back(bytes, bytes + buffer->bytes());
     }
     run_step(division, substeps);
-    if (redoes_frames && model->outran_obstacles()) {
+    bool may_sweep = redoes_frames;
+    for (;;) {
+        const bool was_cut_short = make_room();
+        if (!was_cut_short && !(may_sweep && model->outran_obstacles())) break;
+        may_sweep = may_sweep && was_cut_short;
         for (std::size_t b = 0; b < before.size(); ++b) {
             std::memcpy(state()[b]->host(), before[b].data(), before[b].size());
             changed(*state()[b]);
@@ -73,6 +77,19 @@ void ManualRun::run_frame(const Division& division, int substeps) {
         run_step(division, substeps);
     }
     ++frame_;
+}
+
+bool ManualRun::make_room() {
+    bool grew = false;
+    for (RowTable* table : solver->tables()) {
+        executor_->fetch(table->needs());
+        if (!table->overflowed()) continue;
+        table->grow();
+        executor_->rebind(table->resized_buffers());
+        for (BufferStorage* buffer : table->written_buffers()) changed(*buffer);
+        grew = true;
+    }
+    return grew;
 }
 
 void ManualRun::run_step(const Division& division, int substeps) {

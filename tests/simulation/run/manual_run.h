@@ -38,12 +38,14 @@ public:
 
     std::unique_ptr<Model> model;
     std::unique_ptr<Solver> solver;
-    /// As Simulation does where vertices outran the obstacles.
+    /// As Simulation does where vertices outran the obstacles. (Tables always grow.)
     bool redoes_frames = true;
 
 private:
     void run_frame(const Division& division, int substeps);
     void run_step(const Division& division, int substeps);
+    /// Whether a table was too small for the frame; it no longer is.
+    bool make_room();
     std::vector<BufferStorage*> state();
 
     std::vector<std::unique_ptr<Device>> devices_;

@@ -264,7 +264,7 @@ thickness = 0.01
 
 [[cloth]]
 name = "net"
-grid = { size = [0.6, 0.6], resolution = [15, 15] }
+grid = { size = [0.6, 1.2], resolution = [15, 30] }
 density = 0.2
 stretch = { stiffness = 300.0 }
 bend = { stiffness = 1.0e-4 }
