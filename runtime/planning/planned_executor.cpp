@@ -166,14 +166,16 @@ void PlannedExecutor::record(const FramePlan& plan, const RunTimes& times, int i
     if (tasks) recorder_.list(plan, times, planner_->timing().costs(), active_, frame);
 }
 
-bool PlannedExecutor::make_room() {
+bool PlannedExecutor::make_room() { return grow_tables(maker_->tables(), *executor_); }
+
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor) {
     bool grew = false;
-    for (RowTable* table : maker_->tables()) {
-        executor_->fetch(table->needs());
+    for (RowTable* table : tables) {
+        executor.fetch(table->needs());
         if (!table->overflowed()) continue;
         table->grow();
-        executor_->rebind(table->resized_buffers());
-        for (BufferStorage* buffer : table->written_buffers()) executor_->host_wrote(*buffer);
+        executor.rebind(table->resized_buffers());
+        for (BufferStorage* buffer : table->written_buffers()) executor.host_wrote(*buffer);
         grew = true;
     }
     return grew;

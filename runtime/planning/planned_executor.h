@@ -98,4 +98,8 @@ private:
     int disturbed_frame_ = -1;  ///< the last one that others were seen to disturb; -1: none
 };
 
+/// Lets tables grow in which rows had no room in what the executor ran last; whether there were
+/// any.
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor);
+
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "runtime/planning/planned_executor.h"
 #include "runtime/tbb/cpu_device.h"
 #include "simulation/output/state_hash.h"
 
@@ -66,7 +67,7 @@ void ManualRun::run_frame(const Division& division, int substeps) {
     run_step(division, substeps);
     bool may_sweep = redoes_frames;
     for (;;) {
-        const bool was_cut_short = make_room();
+        const bool was_cut_short = grow_tables(solver->tables(), *executor_);
         if (!was_cut_short && !(may_sweep && model->outran_obstacles())) break;
         may_sweep = may_sweep && was_cut_short;
         for (std::size_t b = 0; b < before.size(); ++b) {
@@ -77,19 +78,6 @@ void ManualRun::run_frame(const Division& division, int substeps) {
         run_step(division, substeps);
     }
     ++frame_;
-}
-
-bool ManualRun::make_room() {
-    bool grew = false;
-    for (RowTable* table : solver->tables()) {
-        executor_->fetch(table->needs());
-        if (!table->overflowed()) continue;
-        table->grow();
-        executor_->rebind(table->resized_buffers());
-        for (BufferStorage* buffer : table->written_buffers()) changed(*buffer);
-        grew = true;
-    }
-    return grew;
 }
 
 void ManualRun::run_step(const Division& division, int substeps) {

@@ -44,8 +44,6 @@ public:
 private:
     void run_frame(const Division& division, int substeps);
     void run_step(const Division& division, int substeps);
-    /// Whether a table was too small for the frame; it no longer is.
-    bool make_room();
     std::vector<BufferStorage*> state();
 
     std::vector<std::unique_ptr<Device>> devices_;
