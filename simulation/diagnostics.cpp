@@ -18,16 +18,27 @@ bool is_finite(const float4& v) {
 
 std::string text_of(const float4& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 
+/// The first of the values that is not as it has to be; -1: all are.
+template <class IsGood>
+int find_bad(std::span<const float4> values, const IsGood& is_good) {
+    return first_of_blocks(static_cast<int>(values.size()), [&](int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            if (!is_good(values[static_cast<std::size_t>(v)])) return v;
+        }
+        return -1;
+    });
+}
+
 std::optional<BadState> find_too_fast(const Model& model) {
     const double most = model.scene.guard.max_speed;
-    for (int v = 0; v < model.vertex_count(); ++v) {
-        const float4& velocity = (*model.velocities)[static_cast<std::size_t>(v)];
+    const auto velocities = model.velocities->span();
+    const int v = find_bad(velocities, [&](const float4& velocity) {
         const Vec3 u = to_vec3(velocity);
-        if (dot(u, u) <= most * most) continue;
-        return BadState{v, fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
-                                       text_of(velocity), most)};
-    }
-    return std::nullopt;
+        return dot(u, u) <= most * most;
+    });
+    if (v < 0) return std::nullopt;
+    return BadState{v, fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
+                                   text_of(velocities[static_cast<std::size_t>(v)]), most)};
 }
 
 }  // namespace
@@ -60,21 +71,28 @@ Energies measure_energies(const Model& model, std::span<const float4> positions,
 }
 
 Vec3 mass_moment(const Model& model, std::span<const float4> positions) {
-    Vec3 sum;
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        if (positions[v].w > 0.0f) sum = sum + model.masses[v] * to_vec3(positions[v]);
-    }
-    return sum;
+    const int count = static_cast<int>(positions.size());
+    std::vector<Vec3> sums(static_cast<std::size_t>(block_count(count)));
+    for_each_block(count, [&](int block, int begin, int end) {
+        Vec3 sum;
+        for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
+            if (positions[v].w > 0.0f) sum = sum + model.masses[v] * to_vec3(positions[v]);
+        }
+        sums[static_cast<std::size_t>(block)] = sum;
+    });
+    return std::accumulate(sums.begin(), sums.end(), Vec3{});
 }
 
 std::optional<BadState> find_non_finite(const Model& model) {
-    for (int v = 0; v < model.vertex_count(); ++v) {
-        const float4& x = (*model.positions)[static_cast<std::size_t>(v)];
-        if (!is_finite(x)) return BadState{v, "position " + text_of(x) + " m is not finite"};
-        const float4& u = (*model.velocities)[static_cast<std::size_t>(v)];
-        if (!is_finite(u)) return BadState{v, "velocity " + text_of(u) + " m/s is not finite"};
+    const auto positions = model.positions->span(), velocities = model.velocities->span();
+    const int x = find_bad(positions, is_finite), u = find_bad(velocities, is_finite);
+    if (x >= 0 && (u < 0 || x <= u)) {
+        const std::string place = text_of(positions[static_cast<std::size_t>(x)]);
+        return BadState{x, "position " + place + " m is not finite"};
     }
-    return std::nullopt;
+    if (u < 0) return std::nullopt;
+    const std::string velocity = text_of(velocities[static_cast<std::size_t>(u)]);
+    return BadState{u, "velocity " + velocity + " m/s is not finite"};
 }
 
 std::optional<BadState> find_beyond_guard(const Model& model, const Strain& strain) {

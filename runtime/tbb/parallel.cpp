@@ -50,4 +50,13 @@ double sum_of_blocks(int count, const std::function<double(int begin, int end)>&
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
+int first_of_blocks(int count, const std::function<int(int begin, int end)>& first_in) {
+    std::vector<int> firsts(static_cast<std::size_t>(block_count(count)), -1);
+    for_each_block(count, [&](int block, int begin, int end) {
+        firsts[static_cast<std::size_t>(block)] = first_in(begin, end);
+    });
+    const auto found = std::ranges::find_if(firsts, [](int first) { return first >= 0; });
+    return found == firsts.end() ? -1 : *found;
+}
+
 }  // namespace weft

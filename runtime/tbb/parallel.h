@@ -25,5 +25,7 @@ int block_count(int count);
 void for_each_block(int count, const std::function<void(int block, int begin, int end)>& action);
 /// Adds up what `sum_of(begin, end)` gives.
 double sum_of_blocks(int count, const std::function<double(int begin, int end)>& sum_of);
+/// The least of what `first_in(begin, end)` gives, which is an index, or -1 for none.
+int first_of_blocks(int count, const std::function<int(int begin, int end)>& first_in);
 
 }  // namespace weft
