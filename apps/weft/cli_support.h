@@ -7,6 +7,7 @@
 
 #include "apps/weft/run_options.h"
 #include "apps/weft/studies/error_study.h"
+#include "apps/weft/studies/stability/stability_study.h"
 
 namespace weft {
 
@@ -37,6 +38,9 @@ void add_run_options(CLI::App& command, RunOptions& options);
 
 /// Those of `weft error`, which error_command.cpp adds.
 void add_error_options(CLI::App& command, ErrorOptions& options);
+
+/// Those of `weft stability`, which stability_command.cpp adds.
+void add_stability_options(CLI::App& command, stability::StudyOptions& options);
 
 /// Accepts one of `choices`; otherwise suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> choices);

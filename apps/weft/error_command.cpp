@@ -12,6 +12,7 @@
 #include "apps/weft/studies/study_files.h"
 #include "apps/weft/studies/study_parts.h"
 #include "apps/weft/studies/study_sweep.h"
+#include "apps/weft/studies/sweep_text.h"
 #include "apps/weft/studies/trajectory_report.h"
 #include "apps/weft/studies/trajectory_study.h"
 #include "runtime/device_list.h"
@@ -72,26 +73,19 @@ void check_names(const ErrorOptions& options) {
 }
 
 /// A sweep of its own, of runs that do a curve each.
-void make_study_sweep(const ErrorOptions& options) {
+void make_sweep_of(const ErrorOptions& options) {
     check_names(options);
     const Scene scene = scene_of(options);
     const std::string name = scene.name + (options.trajectory ? "-trajectory" : "-error");
     const std::filesystem::path folder = batch::sweep_folder(name, options.run.out);
-    const std::string text = study_sweep(options, name, folder);
-    const std::string path = (folder / "sweep.toml").string();
-    const batch::Made made = batch::make_sweep(batch::parse_sweep(text, path), folder);
-    write_output(path, text);
-    if (options.run.json)
-        std::cout << to_json(made).dump(2) << std::endl;
-    else
-        std::cout << to_text(made, path) << std::flush;
+    make_study_sweep(study_sweep(options, name, folder), folder, options.run.json);
 }
 
 void run_error(ErrorOptions options) {
     if (options.devices.empty()) options.devices = {hybrid_devices()};
     if (options.plans.empty()) options.plans = {"auto"};
     if (options.solvers.empty()) options.solvers = method_names();
-    if (options.as_sweep) return make_study_sweep(options);
+    if (options.as_sweep) return make_sweep_of(options);
     const std::filesystem::path folder = make_folder(options);
     if (options.trajectory)
         run_study(options, study_trajectories(options), folder);
@@ -136,7 +130,8 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
     command.add_option("--frame", options.frame,
                        "the step is the first one of this frame (default: the middle of the run)");
     command.add_option("--solvers", options.solvers, "solvers, separated by commas (all)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(one_of(method_names()));
     command.add_option("--devices", options.devices, "device lists, separated by commas (hybrid)")
         ->delimiter(',');
     command.add_option("--plans", options.plans, "kinds of plans, separated by commas (auto)")

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "apps/weft/batch/drive.h"
+#include "apps/weft/studies/stability/parts.h"
 #include "apps/weft/studies/study_files.h"
 #include "apps/weft/studies/study_parts.h"
 #include "runtime/error.h"
@@ -11,12 +12,18 @@ namespace weft::batch {
 
 namespace {
 
-std::vector<Value> finished_parts(const std::filesystem::path& folder, const Manifest& manifest) {
+/// One that has failed may have measured something before it did, or by doing so.
+bool may_have_part(const Status& status) {
+    return status.state == State::kFinished || status.state == State::kFailed;
+}
+
+std::vector<Value> parts_of(const std::filesystem::path& folder, const Manifest& manifest) {
     std::vector<Value> parts;
     for (const Listed& listed : list_runs(folder, manifest, false)) {
-        if (listed.status.state != State::kFinished) continue;
+        if (!may_have_part(listed.status)) continue;
         const auto path = run_path(folder, *listed.run) / "study.json";
         std::ifstream file(path);
+        if (!file && listed.status.state == State::kFailed) continue;
         const Value part = Value::parse(file, nullptr, /*allow_exceptions=*/false);
         if (!part.is_object()) throw RunError(path.string() + ": cannot be read");
         parts.push_back(part);
@@ -24,16 +31,25 @@ std::vector<Value> finished_parts(const std::filesystem::path& folder, const Man
     return parts;
 }
 
+/// What was written, for people.
+std::string write_joined(const std::filesystem::path& folder, const std::vector<Value>& parts) {
+    const std::string kind = parts.front().value("study", "");
+    if (kind == stability::kSuite) return write_study(folder, stability::join_suite_parts(parts));
+    if (kind == stability::kSettings) {
+        const stability::Advice advice = stability::join_settings_parts(parts);
+        return to_text(advice) + write_study(folder, advice);
+    }
+    if (is_trajectory_part(parts.front())) return write_study(folder, join_trajectory_parts(parts));
+    return write_study(folder, join_error_parts(parts));
+}
+
 }  // namespace
 
 void collect_study(const std::filesystem::path& folder, const Manifest& manifest,
                    Collected& collected) {
-    if (manifest.command != "error") return;
-    const std::vector<Value> parts = finished_parts(folder, manifest);
-    if (parts.empty()) return;
-    collected.files.push_back(is_trajectory_part(parts.front())
-                                  ? write_study(folder, join_trajectory_parts(parts))
-                                  : write_study(folder, join_error_parts(parts)));
+    if (manifest.command == "run") return;
+    const std::vector<Value> parts = parts_of(folder, manifest);
+    if (!parts.empty()) collected.files.push_back(write_joined(folder, parts));
 }
 
 }  // namespace weft::batch

@@ -77,6 +77,7 @@ private:
 
     /// The scene is not kept in the sweep's folder: it must be what it was.
     void check_scene(const Run& run) {
+        if (run.scene.empty()) return;
         const std::string path = scene_path(folder_, run).string();
         std::vector<Override> overrides;
         for (std::size_t i = 0; i + 1 < run.arguments.size(); ++i) {
@@ -121,7 +122,8 @@ private:
     int in_child(const Run& run, const RunFolder& files, bool anew) const {
         // Side by side, runs measure other times than alone: these stay in the sweep.
         ::setenv("WEFT_COSTS", fs::absolute(folder_ / "costs.json").c_str(), /*overwrite=*/0);
-        std::vector<std::string> list{manifest_.command, scene_path(folder_, run).string()};
+        std::vector<std::string> list{manifest_.command};
+        if (!run.scene.empty()) list.push_back(scene_path(folder_, run).string());
         list.insert(list.end(), run.arguments.begin(), run.arguments.end());
         list.insert(list.end(), {"--out", files.path().string()});
         if (manifest_.command == "run") list.push_back(anew ? "--force" : "--resume");

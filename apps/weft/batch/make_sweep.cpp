@@ -23,8 +23,10 @@ void check_options(const std::string& command, const std::vector<std::string>& o
     CLI::App app{"", "weft"};
     RunOptions run;
     ErrorOptions study;
+    stability::StudyOptions suite;
     add_run_options(*app.add_subcommand("run"), run);
     add_error_options(*app.add_subcommand("error"), study);
+    add_stability_options(*app.add_subcommand("stability"), suite);
     std::vector<std::string> words{command, "scene.toml"};
     words.insert(words.end(), options.begin(), options.end());
     std::ranges::reverse(words);  // as CLI11 wants them
@@ -33,6 +35,7 @@ void check_options(const std::string& command, const std::vector<std::string>& o
     } catch (const CLI::ParseError& error) {
         throw UserError(describe_parse_error(app, error));
     }
+    if (command == "stability") static_cast<void>(stability::chosen_cases(suite));
     for (const char* name : {"--device", "--devices"}) {
         const CLI::Option* option = app.get_subcommand(command)->get_option_no_throw(name);
         if (option == nullptr) continue;

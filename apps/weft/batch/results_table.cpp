@@ -9,6 +9,7 @@
 #include <set>
 
 #include "apps/weft/batch/drive.h"
+#include "apps/weft/csv_text.h"
 
 namespace weft::batch {
 
@@ -98,22 +99,12 @@ std::map<std::string, Value> cells_of(const Listed& listed, const Value& summary
     return cells;
 }
 
-std::string csv_cell(const Value& value) {
-    if (value.is_null()) return "";
-    const std::string text = to_text(value);
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c;
-        if (c == '"') quoted += c;
-    }
-    return quoted + '"';
-}
+std::string cell_of(const Value& value) { return value.is_null() ? "" : csv_cell(to_text(value)); }
 
 template <class List>
 std::string csv_line(const List& cells) {
     std::string line;
-    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + csv_cell(cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? "," : "") + cell_of(cells[i]);
     return line + '\n';
 }
 

@@ -94,8 +94,6 @@ public:
 
     Run make(const Point& point) {
         Run run;
-        const fs::path scene = scene_of(point);
-        run.scene = fs::absolute(scene).lexically_normal().lexically_relative(folder_).string();
         std::vector<std::string> options;
         for (const Setting& setting : point) {
             if (is_option(setting.key)) {
@@ -105,7 +103,10 @@ public:
         }
         check_options(options, point);
         run.arguments = options;
-        run.scene_hash = hashes_.of(read_point(scene.string(), point, run.arguments));
+        if (const fs::path scene = scene_of(point); !scene.empty()) {
+            run.scene = fs::absolute(scene).lexically_normal().lexically_relative(folder_).string();
+            run.scene_hash = hashes_.of(read_point(scene.string(), point, run.arguments));
+        }
         for (std::size_t i = sweep_.settings.size(); i < point.size(); ++i) {
             run.values.emplace_back(point[i].key, point[i].value);
         }
@@ -123,11 +124,22 @@ private:
             }
             scene = setting.value.get<std::string>();
         }
+        if (scene.empty() && sweep_.command == "stability") {
+            check_no_scene_values(point);
+            return {};
+        }
         if (scene.empty()) {
             throw UserError(sweep_.path +
                             ": which scene? sweep = { scene = \"...\" }, or an axis sweep.scene");
         }
         return (fs::path(sweep_.path).parent_path() / scene).lexically_normal();
+    }
+
+    static void check_no_scene_values(const Point& point) {
+        for (const Setting& setting : point) {
+            if (is_scene_value(setting))
+                throw UserError(setting.mark.text() + ": " + setting.key + ": of which scene?");
+        }
     }
 
     /// Options do not depend on the scene, and few differ.

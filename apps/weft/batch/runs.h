@@ -15,7 +15,7 @@ namespace weft::batch {
 struct Run {
     std::size_t index = 0;
     std::string id;     ///< 12 hex digits over all that the result depends on; its folder's name
-    std::string scene;  ///< relative to the sweep's folder
+    std::string scene;  ///< relative to the sweep's folder; empty: the command has its own
     std::string scene_hash;                             ///< of its text and its meshes
     std::vector<std::pair<std::string, Value>> values;  ///< of the axes
     std::vector<std::string> arguments;  ///< of the equivalent `weft run`, but for scene and --out

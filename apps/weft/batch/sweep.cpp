@@ -122,7 +122,7 @@ void read_lists(const Node& root, Sweep& sweep) {
 }  // namespace
 
 const std::vector<std::string>& sweep_commands() {
-    static const std::vector<std::string> commands{"run", "error"};
+    static const std::vector<std::string> commands{"run", "error", "stability"};
     return commands;
 }
 

@@ -2,9 +2,11 @@
 
 #include "apps/weft/output_file.h"
 #include "apps/weft/pictures/error_picture.h"
+#include "apps/weft/pictures/stability_picture.h"
 #include "apps/weft/pictures/trajectory_picture.h"
 #include "apps/weft/pictures/write_pictures.h"
 #include "apps/weft/studies/error_report.h"
+#include "apps/weft/studies/stability/report.h"
 #include "apps/weft/studies/trajectory_report.h"
 
 namespace weft {
@@ -24,6 +26,18 @@ std::string write_study(const std::filesystem::path& folder, const TrajectoryStu
     write_trajectory_file(folder / "trajectory.h5", study);
     return folder.string() + ": trajectory.csv, trajectory.h5, " +
            write_pictures(folder, "trajectory", TrajectoryPicture(study));
+}
+
+std::string write_study(const std::filesystem::path& folder,
+                        const std::vector<stability::Row>& rows) {
+    write_output(folder / "stability.csv", to_csv(rows));
+    return folder.string() + ": stability.csv, " +
+           write_pictures(folder, "stability", StabilityPicture(rows));
+}
+
+std::string write_study(const std::filesystem::path& folder, const stability::Advice& advice) {
+    write_output(folder / "settings.csv", to_csv(advice));
+    return folder.string() + ": settings.csv";
 }
 
 }  // namespace weft

@@ -4,19 +4,11 @@
 
 #include <algorithm>
 
+#include "apps/weft/csv_text.h"
+
 namespace weft {
 
 namespace {
-
-/// Messages may hold anything.
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        result += c;
-        if (c == '"') result += c;
-    }
-    return result + '"';
-}
 
 std::string front_table(const TrajectoryStudy& study) {
     struct Row {
@@ -54,7 +46,7 @@ std::string to_csv(const TrajectoryStudy& study) {
         }
         for (const UnfinishedRun& run : curve.unfinished) {
             csv += fmt::format("{},{},{},,,,0,{}\n", start, run.substeps, run.iterations,
-                               quoted(run.why));
+                               csv_cell(run.why));
         }
     }
     return csv;

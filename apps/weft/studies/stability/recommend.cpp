@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/csv_text.h"
 #include "apps/weft/progress.h"
 #include "runtime/error.h"
 
@@ -62,7 +63,7 @@ private:
         std::vector<double> times;
         while (simulation.frame() < scene.frames && trial.holds && is_time_left()) {
             const FrameRecord frame = simulation.advance({.tasks = false});
-            times.push_back(frame.measured_makespan);
+            times.push_back(frame.wall_time());
             trial.strain_rms = std::max(trial.strain_rms, frame.strain_rms);
             if (simulation.troubles().empty()) continue;
             const Trouble& first = simulation.troubles().front();
@@ -118,8 +119,7 @@ nlohmann::ordered_json json_of(const Trial& trial) {
 
 Advice advise(const RunOptions& options, const std::vector<std::string>& solvers, double seconds) {
     const Trials trials(options, seconds);
-    Advice advice;
-    advice.frames = read_scene(options.scene, options.overrides()).frames;
+    std::vector<Trial> tried;
     const int pairs = static_cast<int>(solvers.size() * std::size(kIterations));
     Progress progress("pair", pairs, options.quiet);
     int done = 0;
@@ -131,13 +131,29 @@ Advice advise(const RunOptions& options, const std::vector<std::string>& solvers
                 if (holding > 1 || !trials.is_time_left()) break;
                 const Trial trial = trials.run(solver, substeps, iterations);
                 holding += trial.holds ? 1 : 0;
-                advice.trials.push_back(trial);
+                tried.push_back(trial);
             }
             progress.show(++done);
         }
     }
+    return advice_of(std::move(tried), read_scene(options.scene, options.overrides()).frames);
+}
+
+Advice advice_of(std::vector<Trial> trials, int frames) {
+    Advice advice;
+    advice.trials = std::move(trials);
+    advice.frames = frames;
     choose(advice);
     return advice;
+}
+
+std::string to_csv(const Advice& advice) {
+    std::string text = "solver,substeps,iterations,holds,strain_rms,ms_per_frame,why\n";
+    for (const Trial& t : advice.trials) {
+        text += fmt::format("{},{},{},{},{:.6g},{:.6g},{}\n", t.solver, t.substeps, t.iterations,
+                            t.holds ? "yes" : "no", t.strain_rms, t.ms_per_frame, csv_cell(t.why));
+    }
+    return text;
 }
 
 std::string to_text(const Advice& advice) {

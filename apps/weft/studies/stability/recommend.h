@@ -33,7 +33,12 @@ struct Advice {
 /// point more. seconds: of trying
 Advice advise(const RunOptions& options, const std::vector<std::string>& solvers, double seconds);
 
+/// Chooses among trials; those that are strained more than others hold no longer.
+/// frames: of each
+Advice advice_of(std::vector<Trial> trials, int frames);
+
 std::string to_text(const Advice& advice);
+std::string to_csv(const Advice& advice);
 nlohmann::ordered_json to_json(const Advice& advice);
 
 }  // namespace weft::stability

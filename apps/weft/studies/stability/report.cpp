@@ -5,15 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/csv_text.h"
+
 namespace weft::stability {
 
 namespace {
-
-std::string quoted(std::string text) {
-    std::ranges::replace(text, '"', '\'');
-    std::ranges::replace(text, '\n', ' ');
-    return '"' + text + '"';
-}
 
 std::vector<std::string> distinct(const std::vector<Row>& rows, auto value) {
     std::vector<std::string> list;
@@ -49,12 +45,12 @@ std::string to_csv(const std::vector<Row>& rows) {
         "iterations,criterion,why,said\n";
     for (const Row& row : rows) {
         const Outcome& o = row.outcome;
-        text +=
-            fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{}\n",
-                        quoted(row.what.group), quoted(row.what.name), o.solver, name_of(o.verdict),
-                        o.is_reported ? "yes" : "no", o.frame, o.strain_rms, o.strain_max,
-                        o.ms_per_frame, row.what.across, row.what.up, row.what.iterations,
-                        quoted(text_of(row.what.criterion)), quoted(o.why), quoted(o.said));
+        text += fmt::format("{},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{}\n",
+                            csv_cell(row.what.group), csv_cell(row.what.name), o.solver,
+                            name_of(o.verdict), o.is_reported ? "yes" : "no", o.frame, o.strain_rms,
+                            o.strain_max, o.ms_per_frame, row.what.across, row.what.up,
+                            row.what.iterations, csv_cell(text_of(row.what.criterion)),
+                            csv_cell(o.why), csv_cell(o.said));
     }
     return text;
 }
