@@ -5,6 +5,7 @@
 #include "runtime/error.h"
 #include "runtime/executor.h"
 #include "runtime/tbb/cpu_device.h"
+#include "simulation/contact/response.h"
 #include "simulation/diagnostics.h"
 
 namespace weft {
@@ -33,6 +34,7 @@ public:
           model_(model),
           begin_(frame * model.scene.dt),
           device_(make_cpu_device(1, {})),
+          contact_(solver.contact()),
           bodies_(solver.bodies()),
           executor_({device_.get()}, bodies_),
           step_(step) {}
@@ -58,7 +60,8 @@ private:
         }
         // Only a substep's end is a state: before, positions may be far off for good reasons.
         const double end = begin_ + (substep + 1) * model_.h;
-        auto look = watch_.look(model_, start_, begin_, end);
+        const auto stored = contact_ != nullptr ? contact_->energy().stored() : StoredInContacts{};
+        auto look = watch_.look(model_, start_, begin_, end, stored);
         if (!look.alarm || look.alarm->kind == Alarm::Kind::kDoubt) return std::nullopt;
         return Finding{substep, &step_.tasks().back(), std::move(*look.alarm)};
     }
@@ -68,6 +71,7 @@ private:
     Model& model_;
     double begin_;  ///< of the frame [s]
     std::unique_ptr<Device> device_;
+    ContactResponse* contact_;  ///< null: none
     std::vector<const TaskBody*> bodies_;
     Executor executor_;
     const Step& step_;

@@ -46,13 +46,22 @@ std::optional<BadState> find_too_fast(const Model& model) {
 std::vector<std::string> energy_names(const Model& model) {
     std::vector<std::string> names;
     for (const auto& family : model.families) names.push_back(family->names().energy);
+    if (model.scene.contact) names.emplace_back("contact");
     return names;
 }
 
-double Energies::strain() const { return std::accumulate(elements.begin(), elements.end(), 0.0); }
+double Energies::strain() const {
+    return std::accumulate(elements.begin(), elements.end(), contact.value_or(0.0));
+}
+
+std::vector<double> Energies::parts() const {
+    std::vector<double> parts = elements;
+    if (contact) parts.push_back(*contact);
+    return parts;
+}
 
 Energies measure_energies(const Model& model, std::span<const float4> positions,
-                          std::span<const float4> velocities, double time) {
+                          std::span<const float4> velocities, double time, double contact) {
     Energies energies;
     energies.gravity = -dot(model.scene.gravity_at(time), mass_moment(model, positions));
     energies.kinetic = sum_of_blocks(model.vertex_count(), [&](int begin, int end) {
@@ -67,6 +76,7 @@ Energies measure_energies(const Model& model, std::span<const float4> positions,
     for (const auto& family : model.families) {
         energies.elements.push_back(family->total_energy(positions));
     }
+    if (model.scene.contact) energies.contact = contact;
     return energies;
 }
 

@@ -13,19 +13,22 @@ namespace weft {
 /// The energies of a state [J], in double precision.
 struct Energies {
     double kinetic = 0.0;
-    double gravity = 0.0;          ///< potential, zero at the origin
-    std::vector<double> elements;  ///< in the order of energy_names()
+    double gravity = 0.0;           ///< potential, zero at the origin
+    std::vector<double> elements;   ///< of the model's families
+    std::optional<double> contact;  ///< none: the scene has no [contact]
 
-    double strain() const;  ///< of all elements
+    double strain() const;              ///< of all elements, and what is stored in contacts
+    std::vector<double> parts() const;  ///< what strain() is the sum of, as energy_names() has it
     double total() const { return kinetic + gravity + strain(); }
 };
 
-/// Names of the element energies that the model has.
+/// Names of the energies that the model has besides kinetic and gravity.
 std::vector<std::string> energy_names(const Model& model);
 /// Of a state at a time [s]: x y z and inverse mass, and velocities, in the new order. May run
-/// while the model goes on.
+/// while the model goes on. contact: what contacts have stored there [J], which a state by itself
+/// does not tell
 Energies measure_energies(const Model& model, std::span<const float4> positions,
-                          std::span<const float4> velocities, double time);
+                          std::span<const float4> velocities, double time, double contact = 0.0);
 
 /// The first vertex whose position or velocity is not finite.
 std::optional<BadState> find_non_finite(const Model& model);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "simulation/families/convert.h"
 #include "simulation/start_checks.h"
@@ -86,9 +87,9 @@ EnergyAccount::EnergyAccount(const Model& model, const Energies& start)
 }
 
 EnergyAccount::Entry EnergyAccount::with_frame(double time, const OutsideWork& outside,
-                                               const Energies& end) const {
+                                               const Energies& end, double found) const {
     if (time < closed_) return {end.total(), {}, end, false};
-    Entry entry{last_.start, last_.outside, end, true};
+    Entry entry{last_.start + found, last_.outside, end, true};
     entry.outside.work += outside.work;
     entry.outside.doubt += outside.doubt;
     return entry;
@@ -122,12 +123,14 @@ void EnergyAccount::forgive() {
     last_.outside = {};
 }
 
-std::array<double, 3> EnergyAccount::save() const {
-    return {last_.start, last_.outside.work, last_.outside.doubt};
+std::array<double, 4> EnergyAccount::save() const {
+    return {last_.start, last_.outside.work, last_.outside.doubt,
+            last_.energies.contact.value_or(0.0)};
 }
 
-void EnergyAccount::restore(const std::array<double, 3>& saved, const Energies& now) {
-    last_ = {saved[0], {saved[1], saved[2]}, now, true};
+void EnergyAccount::restore(const std::array<double, 4>& saved, Energies now) {
+    if (now.contact) now.contact = saved[3];
+    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true};
 }
 
 }  // namespace weft

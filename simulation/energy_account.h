@@ -37,8 +37,10 @@ public:
     EnergyAccount(const Model& model, const Energies& start);
 
     const Entry& last() const { return last_; }
-    /// With one more frame, that begins at `time`. known: where the frame before left it
-    Entry with_frame(double time, const OutsideWork& outside, const Energies& end) const;
+    /// With one more frame, that begins at `time`. found: energy that was there to be had without
+    /// being known of [J]
+    Entry with_frame(double time, const OutsideWork& outside, const Energies& end,
+                     double found = 0.0) const;
     /// Whether there is energy from nowhere in it. reach: the largest coordinate [m]
     std::optional<EnergyAlarm> look(const Entry& entry, const Strain& strain, double reach) const;
     void accept(Entry entry) { last_ = std::move(entry); }
@@ -46,8 +48,9 @@ public:
     void forgive();
 
     /// The numbers that it carries, for checkpoints.
-    std::array<double, 3> save() const;
-    void restore(const std::array<double, 3>& saved, const Energies& now);
+    std::array<double, 4> save() const;
+    /// now: of the state, without what contacts have stored
+    void restore(const std::array<double, 4>& saved, Energies now);
 
 private:
     double small(double reach) const;

@@ -52,7 +52,7 @@ void record(const Watch::Look& look, FrameRecord& frame) {
     frame.strain_max = look.strain.most;
     frame.kinetic_energy = entry.energies.kinetic;
     frame.gravity_energy = entry.energies.gravity;
-    frame.energies = entry.energies.elements;
+    frame.energies = entry.energies.parts();
     frame.work = entry.is_known ? entry.outside.work : unknown;
     frame.dissipated = entry.is_known ? entry.dissipated() : unknown;
 }
@@ -142,6 +142,7 @@ void Simulation::set_steps(int substeps, int iterations) {
     solver_.swap(solver);
     run_->take_over(*solver_, model_->strips.count());  // while those before are there
     if (samples_ && has_other_length) samples_->reset();
+    if (has_other_length) watch_->expect_other_contacts();
     place();
     restore(state);
 }
@@ -287,7 +288,7 @@ void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
 /// Looks at the frame that has just run, and writes down what there is to see.
 bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) {
     const double end = time() + model_->scene.dt;
-    const Watch::Look look = watch_->look(*model_, *start_, time(), end);
+    const Watch::Look look = watch_->look(*model_, *start_, time(), end, stored_in_contacts());
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
     const auto error = samples_ && may_repeat ? samples_->end(*model_) : std::nullopt;
     if (error && iterates_more(*error)) return false;
@@ -336,6 +337,13 @@ void Simulation::tell_of_tolerance(double error) {
                      solver.tolerance, error, solver.iterations,
                      advise_tolerance(model_->scene, samples_->last())),
          false});
+}
+
+StoredInContacts Simulation::stored_in_contacts() {
+    ContactResponse* contact = solver_->contact();
+    if (contact == nullptr) return {};
+    run_->executor().fetch(contact->energy().energies());
+    return contact->energy().stored();
 }
 
 /// What is not guaranteed is told, where it happens.
@@ -389,5 +397,6 @@ RunDescription Simulation::describe() const { return describe_run(*model_, *solv
 std::vector<float> Simulation::positions() const { return snapshot()->scene_positions(*model_); }
 std::vector<float> Simulation::velocities() const { return snapshot()->scene_velocities(*model_); }
 std::string Simulation::hash() const { return snapshot()->hash(*model_); }
+const Energies& Simulation::energies() const { return watch_->account().last().energies; }
 
 }  // namespace weft

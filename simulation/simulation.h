@@ -22,6 +22,8 @@ namespace weft {
 class ErrorSamples;
 class Watch;
 struct Alarm;
+struct Energies;
+struct StoredInContacts;
 
 /// What is done about a frame that ends in a state that cannot be.
 enum class OnTrouble {
@@ -124,6 +126,8 @@ public:
     std::vector<float> positions() const;
     std::vector<float> velocities() const;
     std::string hash() const;
+    /// Of the present state [J]; of the first one where options.on_trouble is kIgnore.
+    const Energies& energies() const;
 
 private:
     void restore(const SimulationState& state);
@@ -143,6 +147,7 @@ private:
     void iterate_less(double error);
     void tell_of_tolerance(double error);
     void look_at_contact();
+    StoredInContacts stored_in_contacts();
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
     void tell(const Alarm& alarm, const std::string& what);

@@ -4,8 +4,9 @@ namespace weft {
 
 namespace {
 
-Energies energies_of(const Model& model, double time) {
-    return measure_energies(model, model.positions->span(), model.velocities->span(), time);
+Energies energies_of(const Model& model, double time, double contact = 0.0) {
+    return measure_energies(model, model.positions->span(), model.velocities->span(), time,
+                            contact);
 }
 
 Alarm alarm_of(const EnergyAlarm& alarm) {
@@ -17,15 +18,21 @@ Alarm alarm_of(const EnergyAlarm& alarm) {
 Watch::Watch(const Model& model, bool keeps_account, int threads)
     : threads_(threads), keeps_account_(keeps_account), account_(model, energies_of(model, 0.0)) {}
 
-Watch::Look Watch::look(const Model& model, const SimulationState& before, double start,
-                        double end) const {
+Watch::Look Watch::look(const Model& model, const SimulationState& before, double start, double end,
+                        const StoredInContacts& contacts) const {
     Look look;
-    threads_.execute([&] { look = look_here(model, before, start, end); });
+    threads_.execute([&] { look = look_here(model, before, start, end, contacts); });
     return look;
 }
 
+/// What contacts have stored is found out by the substep that finds them.
+double Watch::found(const StoredInContacts& contacts) const {
+    if (knows_contacts_) return 0.0;
+    return contacts.start - account_.last().energies.contact.value_or(0.0);
+}
+
 Watch::Look Watch::look_here(const Model& model, const SimulationState& before, double start,
-                             double end) const {
+                             double end, const StoredInContacts& contacts) const {
     const auto positions = model.positions->span();
     Look look;
     if (auto bad = find_non_finite(model)) {
@@ -35,7 +42,7 @@ Watch::Look Watch::look_here(const Model& model, const SimulationState& before, 
     look.strain = model.edges->strain(positions);
     if (keeps_account_) {
         look.entry = account_.with_frame(start, outside_work(model, before, start, end),
-                                         energies_of(model, end));
+                                         energies_of(model, end, contacts.end), found(contacts));
     }
     if (auto bad = find_beyond_guard(model, look.strain)) {
         look.alarm = {Alarm::Kind::kExplosion, bad->what, bad->vertex};
@@ -49,11 +56,13 @@ Watch::Look Watch::look_here(const Model& model, const SimulationState& before, 
 void Watch::accept(const Look& look, bool forgives) {
     if (!keeps_account_) return;
     account_.accept(look.entry);
+    knows_contacts_ = true;
     if (forgives) account_.forgive();
 }
 
 void Watch::restart(const Model& model, double time,
-                    const std::optional<std::array<double, 3>>& saved) {
+                    const std::optional<std::array<double, 4>>& saved) {
+    knows_contacts_ = saved.has_value();
     const Energies now = energies_of(model, time);
     if (saved)
         account_.restore(*saved, now);

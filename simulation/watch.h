@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/tbb/parallel.h"
+#include "simulation/contact/energy.h"
 #include "simulation/energy_account.h"
 #include "simulation/state.h"
 
@@ -34,23 +35,29 @@ public:
     /// keeps_account: false: only whether a state is one. threads: to do it with
     Watch(const Model& model, bool keeps_account, int threads);
 
-    /// At the model's state, at `end` [s]; its frame began at `start`, with `before`.
-    Look look(const Model& model, const SimulationState& before, double start, double end) const;
+    /// At the model's state, at `end` [s]; its frame began at `start`, with `before`. contacts:
+    /// what they had stored at both
+    Look look(const Model& model, const SimulationState& before, double start, double end,
+              const StoredInContacts& contacts) const;
     /// Goes on from a state that was looked at. forgives: what came from nowhere is there now
     void accept(const Look& look, bool forgives);
     const EnergyAccount& account() const { return account_; }
 
     /// Goes on from another state, at a time [s], as its run's account stood there (none: anew).
     void restart(const Model& model, double time,
-                 const std::optional<std::array<double, 3>>& saved = std::nullopt);
+                 const std::optional<std::array<double, 4>>& saved = std::nullopt);
+    /// The next frame's contacts store more or less than those of the last one, in the same state.
+    void expect_other_contacts() { knows_contacts_ = false; }
 
 private:
-    Look look_here(const Model& model, const SimulationState& before, double start,
-                   double end) const;
+    Look look_here(const Model& model, const SimulationState& before, double start, double end,
+                   const StoredInContacts& contacts) const;
+    double found(const StoredInContacts& contacts) const;
 
     HostThreads threads_;
     bool keeps_account_;
     EnergyAccount account_;
+    bool knows_contacts_ = false;  ///< what they have stored in the last state
 };
 
 }  // namespace weft

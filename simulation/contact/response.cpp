@@ -106,7 +106,8 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
       still_("contact.still", 1),
-      snapshots_("contact.snapshots", 2 * model.positions->count()) {
+      snapshots_("contact.snapshots", 2 * model.positions->count()),
+      energy_(model, rows(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
     make_fill();
 }
@@ -135,12 +136,14 @@ void ContactResponse::make_fill() {
 std::vector<const TaskBody*> ContactResponse::bodies() const {
     auto list = pairs_.bodies();
     list.push_back(&fill_);
+    list.push_back(&energy_.body());
     return list;
 }
 
 std::vector<std::string> ContactResponse::kinds() const {
     auto names = ContactPairs::kinds();
     names.push_back(fill_.name);
+    names.push_back(energy_.body().name);
     return names;
 }
 
@@ -209,10 +212,21 @@ void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region
 
 Launch ContactResponse::gather(const Segments& segments, Buffer<float4>& positions,
                                VertexItems& items, Buffer<float>& sums) {
-    return launch(kernels::gather_contacts, segments, positions, snapshots_, items.vertices(),
+    return gather_from(segments, positions, snapshots_, model_.vertex_count(), items, sums);
+}
+
+/// No second half, and no way from there.
+Launch ContactResponse::gather_at(const Segments& segments, Buffer<float4>& shared,
+                                  VertexItems& items, Buffer<float>& sums) {
+    return gather_from(segments, shared, shared, 0, items, sums);
+}
+
+Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& positions,
+                                    Buffer<float4>& snapshots, int second_half, VertexItems& items,
+                                    Buffer<float>& sums) {
+    return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
                   contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, sums, items.count(), model_.vertex_count(),
-                  kIteration);
+                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration);
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
@@ -220,13 +234,8 @@ void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int
     const auto [first, last] = vertices(first_strip, end_strip);
     const int all = model_.vertex_count();
     const int half = iteration % 2 * all;
-    task.reads(snapshots_, half, half + all).reads(contacts_.counts(), first, last);
-    for (Buffer<int>* corner : {&corner0_, &corner1_, &corner2_, &corner3_}) {
-        task.reads(*corner, contacts_.entries(), first_strip, end_strip);
-    }
-    for (Buffer<float4>* column : {&normals_, &weights_, &measures_}) {
-        task.reads(*column, contacts_.entries(), first_strip, end_strip);
-    }
+    task.reads(snapshots_, half, half + all);
+    rows().add_reads(task, first_strip, end_strip, first, last);
 }
 
 Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
@@ -294,6 +303,10 @@ std::string ContactResponse::trouble() const {
             text.empty() ? "contact: " : ", and ", touching);
     }
     return text;
+}
+
+ContactRows ContactResponse::rows() {
+    return {contacts_, corner0_, corner1_, corner2_, corner3_, normals_, weights_, measures_};
 }
 
 std::pair<int, int> ContactResponse::vertices(int first_strip, int end_strip) const {

@@ -8,6 +8,7 @@
 #include "runtime/planning/regions.h"
 #include "runtime/row_table.h"
 #include "runtime/step.h"
+#include "simulation/contact/energy.h"
 #include "simulation/contact/pairs.h"
 #include "simulation/model/model.h"
 
@@ -35,7 +36,10 @@ public:
     /// The contacts' part of gradients and Hessian blocks, behind that of the elements.
     Launch gather(const Segments& segments, Buffer<float4>& positions, VertexItems& items,
                   Buffer<float>& sums);
-    /// What that needs, of vertices in strips [first_strip, end_strip).
+    /// The same where the positions are those that all vertices share.
+    Launch gather_at(const Segments& segments, Buffer<float4>& shared, VertexItems& items,
+                     Buffer<float>& sums);
+    /// What the first needs, of vertices in strips [first_strip, end_strip).
     void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
     /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.
@@ -56,8 +60,12 @@ public:
     /// What is to be told of a frame whose cut_counts() and nearest() the host has; empty: nothing.
     std::string trouble() const;
 
+    /// [vertices] whom the last truncation took back: not 0.
+    Buffer<int>& cut() { return cut_; }
     /// [vertices] how many contacts each has.
     Buffer<int>& counts() { return contacts_.counts(); }
+    ContactRows rows();
+    ContactEnergy& energy() { return energy_; }
 
 private:
     /// The surface as rows of contacts want it, in the model's vertices.
@@ -73,6 +81,10 @@ private:
     void make_fill();
     void add_fill(Step& step, const Region& region);
     void add_pair_accesses(Step::Adding& task, const Region& region);
+    /// second_half: where it begins
+    Launch gather_from(const Segments& segments, Buffer<float4>& positions,
+                       Buffer<float4>& snapshots, int second_half, VertexItems& items,
+                       Buffer<float>& sums);
     Launch truncation(Buffer<float4>& positions, float soft);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
@@ -93,6 +105,7 @@ private:
     Buffer<float> still_;  ///< [1] how far pins go that stay where they are
     Buffer<float4> snapshots_;
     TaskBody fill_;
+    ContactEnergy energy_;
 };
 
 }  // namespace weft

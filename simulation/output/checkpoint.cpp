@@ -14,7 +14,7 @@ namespace {
 
 // Text lines: format, origin, frame, substeps and iterations, the account's bits, sizes of the
 // report and the buffers; then their bytes, then kEnd.
-constexpr const char* kFormat = "weft-checkpoint 4";
+constexpr const char* kFormat = "weft-checkpoint 5";
 constexpr const char* kEnd = "end";
 
 template <class Bytes>

@@ -16,7 +16,7 @@ struct Checkpoint {
     int substeps = 0;                             ///< that its steps are made of
     int iterations = 0;                           ///< of each step
     int failed_iterations = 0;                    ///< too few for the tolerance, as was seen
-    std::array<double, 3> account{};              ///< as EnergyAccount::save() gives it
+    std::array<double, 4> account{};              ///< as EnergyAccount::save() gives it
     std::vector<std::vector<std::byte>> buffers;  ///< as Simulation::checkpoint() gives them
     std::vector<std::uint8_t> report;             ///< as SummaryBuilder::save() gives it
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <array>
+#include <cmath>
 
 #include "simulation/families/convert.h"
 
@@ -51,8 +52,9 @@ void project(Blocks& blocks, std::size_t corners, double part) {
 
 }  // namespace
 
-IncrementalPotential::IncrementalPotential(const Model& model, double time)
-    : families_(model.families) {
+IncrementalPotential::IncrementalPotential(const Model& model, double time,
+                                           std::vector<FrozenContact> contacts)
+    : families_(model.families), contacts_(std::move(contacts)) {
     const double h = model.h;
     const Vec3 gravity = model.scene.gravity_at(time + 0.5 * h);
     const auto count = static_cast<std::size_t>(model.vertex_count());
@@ -77,6 +79,7 @@ void IncrementalPotential::make_pattern() {
     for (const auto& family : families_) {
         for (int e = 0; e < family->count(); ++e) groups.push_back({family->corners(e)});
     }
+    for (const FrozenContact& contact : contacts_) groups.push_back({contact.corners});
     hessian_ = BlockMatrix(free, groups);
 
     for (const auto& family : families_) {
@@ -85,6 +88,13 @@ void IncrementalPotential::make_pattern() {
             const auto vertices = family->corners(e);
             for (const int row : vertices) {
                 for (const int column : vertices) slots.push_back(hessian_.find(row, column));
+            }
+        }
+    }
+    for (const FrozenContact& contact : contacts_) {
+        for (const int row : contact.corners) {
+            for (const int column : contact.corners) {
+                contact_slots_.push_back(hessian_.find(row, column));
             }
         }
     }
@@ -104,6 +114,7 @@ double IncrementalPotential::energy(std::span<const Vec3> x) const {
             sum += family->energy(e, corners_of(*family, e, x).data());
         }
     }
+    for (const FrozenContact& contact : contacts_) sum += contact.energy(contact.gap(x));
     return static_cast<double>(sum);
 }
 
@@ -118,6 +129,13 @@ std::vector<Vec3> IncrementalPotential::gradient(std::span<const Vec3> x) const 
                 Vec3& at = sum[static_cast<std::size_t>(vertices[k])];
                 at = at + forces[k];
             }
+        }
+    }
+    for (const FrozenContact& contact : contacts_) {
+        const double slope = contact.slope(contact.gap(x));
+        for (std::size_t k = 0; k < 4; ++k) {
+            Vec3& at = sum[static_cast<std::size_t>(contact.corners[k])];
+            at = at + (slope * contact.weights[k]) * contact.normal;
         }
     }
     for (std::size_t v = 0; v < sum.size(); ++v) {
@@ -142,6 +160,12 @@ double IncrementalPotential::force_size(std::span<const Vec3> x) const {
             }
         }
     }
+    for (const FrozenContact& contact : contacts_) {
+        const double slope = contact.slope(contact.gap(x));
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (is_free(contact.corners[k])) size += std::abs(slope * contact.weights[k]);
+        }
+    }
     return size;
 }
 
@@ -163,7 +187,24 @@ const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double
             }
         }
     }
+    add_contacts(x);
     return hessian_;
+}
+
+/// Positive semi-definite as they are.
+void IncrementalPotential::add_contacts(std::span<const Vec3> x) {
+    auto slot = contact_slots_.begin();
+    for (const FrozenContact& contact : contacts_) {
+        const double curvature = contact.curvature(contact.gap(x));
+        const Vec3 n = contact.normal;
+        const Mat3 along{{n.x * n, n.y * n, n.z * n}};
+        for (const double row : contact.weights) {
+            for (const double column : contact.weights) {
+                if (*slot >= 0) hessian_.add(*slot, (curvature * row * column) * along);
+                ++slot;
+            }
+        }
+    }
 }
 
 }  // namespace weft

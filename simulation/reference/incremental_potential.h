@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/contact/frozen.h"
 #include "simulation/model/model.h"
 #include "simulation/reference/block_matrix.h"
 
@@ -11,7 +12,7 @@ namespace weft {
 
 /// What one step of a model minimises, in double precision:
 ///
-///   E(x) = sum_v m_v / (2 h^2) |x_v - x~_v|^2 + sum of the element energies,
+///   E(x) = sum_v m_v / (2 h^2) |x_v - x~_v|^2 + sum of the energies of elements and contacts,
 ///   x~ = x_t + h v_t + h^2 g
 ///
 /// with the vertices that are held where they are at the step's end. It is the same for all
@@ -23,7 +24,8 @@ class IncrementalPotential {
 public:
     /// The step that begins at `time` [s] from the model's positions and velocities, which are read
     /// now. The model must outlive this object; its elements are read whenever they are needed.
-    IncrementalPotential(const Model& model, double time);
+    /// contacts: that the step begins with
+    IncrementalPotential(const Model& model, double time, std::vector<FrozenContact> contacts = {});
 
     /// x~, and the held vertices' places.
     const std::vector<Vec3>& predicted() const { return predicted_; }
@@ -31,6 +33,7 @@ public:
     /// m / h^2 [N/m], 0 for held vertices.
     const std::vector<double>& inertia() const { return inertia_; }
     const std::vector<std::unique_ptr<ElementFamily>>& families() const { return families_; }
+    const std::vector<FrozenContact>& contacts() const { return contacts_; }
 
     /// [J]
     double energy(std::span<const Vec3> x) const;
@@ -47,12 +50,15 @@ public:
 
 private:
     void make_pattern();
+    void add_contacts(std::span<const Vec3> x);
 
     const std::vector<std::unique_ptr<ElementFamily>>& families_;  ///< the model's
+    std::vector<FrozenContact> contacts_;
     std::vector<Vec3> predicted_;
     std::vector<double> inertia_;
     BlockMatrix hessian_;
     std::vector<std::vector<int>> slots_;  ///< [family][element * corners^2], -1 where held
+    std::vector<int> contact_slots_;       ///< [contact * 16], -1 where held
     std::vector<int> diagonal_;            ///< [vertices] slot, -1 where held
 };
 

@@ -135,6 +135,11 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
     return task.updates(*model_.positions, first, last);
 }
 
+void DescentSubstep::add_measurements(Step& step, const std::vector<Region>& regions,
+                                      int iteration) {
+    if (contact_) contact_->energy().add(step, regions, iteration);
+}
+
 Halo::Halo(const Model& model) : lowest_(model.strips.order.size()), highest_(lowest_.size()) {
     std::iota(lowest_.begin(), lowest_.end(), 0);
     std::iota(highest_.begin(), highest_.end(), 0);

@@ -23,6 +23,8 @@ public:
     std::vector<Launch> end();
     Step::Adding add_begin(Step& step, const TaskBody& body, const Region& region);
     Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
+    /// Behind the ends of all regions: what is measured of a substep.
+    void add_measurements(Step& step, const std::vector<Region>& regions, int iteration);
 
     /// Whether there are bodies whose momentum has to be summed between the last iteration and the
     /// end; what that launches, for the positions after the last iteration.

@@ -7,15 +7,17 @@
 
 namespace weft {
 
-EnergySum::EnergySum(Model& model, Buffer<float4>& targets)
+EnergySum::EnergySum(Model& model, Buffer<float4>& targets, ContactEnergy* contacts)
     : model_(model),
       targets_(targets),
+      contacts_(contacts),
       used_(static_cast<std::size_t>(model.strips.count()), 0),
       columns_("energy.columns", 2 * kColumns * used_.size()),
       column_begin_("energy.strips", used_.size() + 1),
       partials_("energy.partials", kColumns * used_.size()) {
-    vertices_ = make_vertices_part();
+    vertices_ = make_vertices_part("inertia.terms");
     for (const auto& family : model.families) families_.push_back(make_part(*family));
+    if (contacts_ != nullptr) touching_ = make_vertices_part("contact.terms");
     place_strips();
 }
 
@@ -35,10 +37,9 @@ std::unique_ptr<EnergySum::Part> EnergySum::make_part(const ElementFamily& famil
     return part;
 }
 
-std::unique_ptr<EnergySum::Part> EnergySum::make_vertices_part() {
+std::unique_ptr<EnergySum::Part> EnergySum::make_vertices_part(const std::string& name) {
     const auto& begin = model_.strips.begin;
-    auto part = std::make_unique<Part>("inertia.terms", model_.vertex_count(),
-                                       static_cast<int>(begin.size()));
+    auto part = std::make_unique<Part>(name, model_.vertex_count(), static_cast<int>(begin.size()));
     std::copy(begin.begin(), begin.end(), part->strip_begin.data());
     part->items.push_back({&part->strip_begin, 0, 1, model_.strips.count()});
     take_places(*part);
@@ -72,6 +73,7 @@ void EnergySum::place_strips() {
     terms_ = std::make_unique<Buffer<float>>("energy.terms", static_cast<std::size_t>(base.back()));
     move_into_strips(*vertices_, base);
     for (const auto& part : families_) move_into_strips(*part, base);
+    if (touching_) move_into_strips(*touching_, base);
 }
 
 /// base: [strips] where each one's terms begin
@@ -96,6 +98,7 @@ std::vector<Launch> EnergySum::launches(Buffer<float4>& positions) {
                 {part.items[phase], positions, part.slots, *terms_}));
         }
     }
+    if (touching_) launches.push_back(contacts_->terms(positions, touching_->slots, *terms_));
     const Segments columns{&column_begin_, 0, 1, model_.strips.count()};
     launches.push_back(launch(kernels::add_terms, columns, *terms_, columns_, partials_, kColumns));
     return launches;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "simulation/contact/energy.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -14,7 +15,8 @@ class EnergySum {
 public:
     static constexpr int kColumns = 64;
 
-    EnergySum(Model& model, Buffer<float4>& targets);
+    /// contacts: null: there are none
+    EnergySum(Model& model, Buffer<float4>& targets, ContactEnergy* contacts = nullptr);
 
     /// What writes the sums of a strip for these positions.
     std::vector<Launch> launches(Buffer<float4>& positions);
@@ -33,7 +35,7 @@ private:
         std::vector<Segments> items;  ///< [phases]
     };
     std::unique_ptr<Part> make_part(const ElementFamily& family);
-    std::unique_ptr<Part> make_vertices_part();
+    std::unique_ptr<Part> make_vertices_part(const std::string& name);
     /// Gives the part's items their places behind those that each strip already has.
     void take_places(Part& part);
     void place_strips();
@@ -41,9 +43,11 @@ private:
 
     Model& model_;
     Buffer<float4>& targets_;
+    ContactEnergy* contacts_;
     std::vector<int> used_;  ///< [strips] terms
     std::unique_ptr<Part> vertices_;
     std::vector<std::unique_ptr<Part>> families_;  ///< as the model's
+    std::unique_ptr<Part> touching_;               ///< vertices that contacts count at; null: none
     std::unique_ptr<Buffer<float>> terms_;
     Buffer<int> columns_;       ///< [2 * kColumns * strips]
     Buffer<int> column_begin_;  ///< [strips + 1]

@@ -80,6 +80,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);
     }
+    substep_.add_measurements(step, regions, iterations - 1);
     step.seal();
     return step;
 }

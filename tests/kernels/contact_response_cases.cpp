@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 
 #include "kernels/contact/begin.h"
 #include "kernels/contact/fill.h"
 #include "kernels/contact/rows.h"
+#include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
 #include "kernels/descent/free_bodies.h"
 #include "runtime/row_table.h"
@@ -143,6 +145,47 @@ void snapshot_case(KernelCase& c) {
         launch(kernels::take_snapshot, c.segments, positions, snapshots, c.items, kIteration, 1);
 }
 
+/// What kernels over the rows of all vertices take; each vertex is a corner of its contacts.
+struct OwnContacts : Contacts {
+    Buffer<float4>& positions;
+
+    explicit OwnContacts(KernelCase& c)
+        : Contacts(c), positions(add_points(c, "positions", c.items)) {
+        const std::array corners{&corner0, &corner1, &corner2, &corner3};
+        for (int v = 0; v < c.items; ++v) {
+            for (int k = 0; k < rows.counts[at(v)]; ++k) {
+                auto& corner = *corners[at(c.random.integer(0, 3))];
+                corner[at(rows.rows[at(v)] + RowTable::kStride * k)] = v;
+            }
+        }
+        if (c.flavour == Flavour::kRandom) return;
+        for (float4& w : weights.span()) {
+            if (c.random.integer(0, 2) == 0) w = {0.0f, 1.0f, w.z, w.w};
+        }
+    }
+};
+
+void terms_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& slots = c.add<int>("slots", c.items);
+    for (int v = 0; v < c.items; ++v) slots[at(v)] = v;
+    auto& terms = c.add<float>("terms", c.items);
+    c.launch = launch(kernels::contact_terms, c.segments, contacts.positions, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      slots, terms);
+}
+
+void measure_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& previous = add_points(c, "previous", c.items);
+    auto& energies = c.add<float>("energies", 2 * c.items);
+    c.launch = launch(kernels::measure_contacts, c.segments, contacts.positions, previous,
+                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
+                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
+                      contacts.measures, energies, c.items, kInstance);
+}
+
 /// Lists of random entries: begin [items + 1], list.
 std::pair<Buffer<int>*, Buffer<int>*> add_lists(KernelCase& c, const std::string& name, int items,
                                                 int end) {
@@ -214,6 +257,8 @@ const bool added =
     add_case("truncate_contacts", truncate_case) && add_case("gather_contacts", gather_case) &&
     add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
     add_case("add_lags_and_contacts", lags_case);
+const bool added_of_solvers =
+    add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case);
 
 }  // namespace
 }  // namespace weft::test

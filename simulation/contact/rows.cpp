@@ -1,0 +1,16 @@
+#include "simulation/contact/rows.h"
+
+namespace weft {
+
+void ContactRows::add_reads(Step::Adding& task, int first_strip, int end_strip, int first,
+                            int last) const {
+    task.reads(table.counts(), first, last);
+    for (Buffer<int>* corner : {&corner0, &corner1, &corner2, &corner3}) {
+        task.reads(*corner, table.entries(), first_strip, end_strip);
+    }
+    for (Buffer<float4>* column : {&normals, &weights, &measures}) {
+        task.reads(*column, table.entries(), first_strip, end_strip);
+    }
+}
+
+}  // namespace weft

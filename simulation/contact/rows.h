@@ -1,0 +1,19 @@
+#pragma once
+
+#include "runtime/row_table.h"
+#include "runtime/step.h"
+
+namespace weft {
+
+/// The contacts of all vertices, a row each, as kernels/contact/rows.h has them.
+struct ContactRows {
+    RowTable& table;
+    Buffer<int>&corner0, &corner1, &corner2, &corner3;
+    Buffer<float4>&normals, &weights, &measures;
+
+    /// What reading the rows of strips [first_strip, end_strip) takes, which have the vertices
+    /// [first, last).
+    void add_reads(Step::Adding& task, int first_strip, int end_strip, int first, int last) const;
+};
+
+}  // namespace weft
