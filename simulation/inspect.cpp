@@ -201,7 +201,8 @@ void add_pins(LeftOutList& list, const Model& model) {
 void add_contact(LeftOutList& list, const Model& model) {
     if (model.scene.contact) return;
     list.add_with("contact", "the scene has no [contact]", [](const KernelInfo& kernel) {
-        return kernel.file.find("/contact/") != std::string::npos;
+        return kernel.file.find("/contact/") != std::string::npos ||
+               kernel.file.ends_with("/contacts.h");
     });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/descent/substep.h"
+#include "kernels/jpgd/contacts.h"
 #include "kernels/jpgd/control.h"
 #include "kernels/jpgd/step.h"
 #include "simulation/solver/derivatives.h"
@@ -19,7 +20,7 @@ enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities, k
 constexpr int kCheckEvery = 8;    ///< iterations
 constexpr int kRefreshEvery = 8;  ///< iterations, from this one on; before it, every one
 constexpr float kSlack = 1.00001f;
-constexpr float kSlackWithObstacles = 2.0f;
+constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles, or back from contacts' planes
 
 /// Whether the blocks are taken anew. Wang and Yang 2016 do so every 32 iterations; but the first
 /// iterations are those that bend and stretch, and blocks of springs at rest know nothing of what
@@ -59,9 +60,10 @@ public:
         : model_(model),
           iterations_(model.scene.solver.iterations),
           substep_(model, kMomentum),
+          contact_(substep_.contact()),
           items_(model.strips),
           derivatives_(model, items_),
-          energy_(model, substep_.targets()),
+          energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
           other_("positions.other", model.positions->count()),
           residues_{Buffer<float4>("positions.residue", model.positions->count()),
                     Buffer<float4>("positions.other.residue", model.positions->count())},
@@ -80,20 +82,24 @@ public:
     std::vector<const TaskBody*> bodies() const override {
         std::vector<const TaskBody*> list{&predict_, &decide_, &velocities_};
         for (const std::size_t parity : {0U, 1U}) {
-            for (const auto* bodies : {&energies_, &reverts_, &refreshes_, &steps_}) {
+            for (const auto* bodies : {&energies_, &reverts_, &refreshes_}) {
                 list.push_back(&(*bodies)[parity]);
             }
+            if (!contact_) list.push_back(&steps_[parity]);
         }
         if (substep_.has_free_bodies()) list.push_back(&momentum_);
+        substep_.list_bodies(list);
         return list;
     }
     std::vector<std::string> kinds() const override {
         std::vector<std::string> names{"predict", "energy", "decide",    "revert",
                                        "refresh", "step",   "velocities"};
-        if (substep_.has_free_bodies()) names.push_back("momentum");
+        substep_.list_kinds(names);
         return names;
     }
     std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
+    std::vector<RowTable*> tables() override { return substep_.tables(); }
+    ContactResponse* contact() override { return contact_; }
 
     std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get(), &other_}; }
 
@@ -105,6 +111,7 @@ public:
         const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+        if (contact_ != nullptr) contact_->add_detection(step, regions);
         for (int i = 0; i < iterations_; ++i) {
             if (i % kCheckEvery == 0) add_check(step, regions, i);
             for (const Region& region : regions) {
@@ -119,6 +126,7 @@ public:
             substep_.add_sum(step, momentum_, region, after(iterations_), iterations_ - 1);
         }
         for (const Region& region : regions) add_velocities(step, region);
+        substep_.add_measurements(step, regions, iterations_ - 1);
         step.seal();
         return step;
     }
@@ -142,7 +150,7 @@ private:
                    kDecide,
                    {launch(kernels::decide_step, first, control_, energy_.partials(),
                            static_cast<int>(energy_.partials().count()),
-                           model_.obstacles ? kSlackWithObstacles : kSlack, kIteration)}};
+                           model_.obstacles || contact_ ? kSlackWithPushes : kSlack, kIteration)}};
         for (const int parity : {0, 1}) {
             const auto p = static_cast<std::size_t>(parity);
             energies_[p] = {"energy", kEnergy, energy_.launches(after(parity))};
@@ -152,9 +160,15 @@ private:
             }
             refreshes_[p] = {"refresh", kRefresh, derivatives_.gather(kInnerPhase, after(parity))};
             steps_[p] = {"step", kStep, derivatives_.gather_gradients(kInnerPhase, after(parity))};
+            if (contact_) {
+                refreshes_[p].launches.push_back(contact_->gather_at(
+                    items_.segments(kInnerPhase), after(parity), items_, derivatives_.sums()));
+            }
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
-                body->launches.push_back(descend(parity));
+                body->launches.push_back(contact_ ? descend_beside_contacts(parity)
+                                                  : descend(parity));
                 substep_.add_obstacles(body->launches, after(parity + 1));
+                if (contact_) add_truncation(body->launches, parity);
             }
         }
         if (substep_.has_free_bodies()) {
@@ -180,16 +194,35 @@ private:
                       static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
     }
 
+    Launch descend_beside_contacts(int parity) {
+        return launch(kernels::step_beside_contacts, model_.vertices(), after(parity),
+                      after(parity + 1), residue(parity), residue(parity + 1), substep_.targets(),
+                      derivatives_.sums(), control_, weights_, contact_->counts(), items_.count(),
+                      static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
+    }
+
+    void add_truncation(std::vector<Launch>& launches, int parity) {
+        contact_->add_truncation(launches, after(parity + 1));
+        launches.push_back(launch(kernels::drop_residues, model_.vertices(), contact_->cut(),
+                                  residue(parity + 1)));
+    }
+
+    /// Contacts reach from anywhere to anywhere.
+    std::pair<int, int> seen_from(int first, int last) const {
+        return contact_ ? std::pair(0, model_.vertex_count()) : halo_.around(first, last);
+    }
+
     void add_check(Step& step, const std::vector<Region>& regions, int iteration) {
         const auto parity = static_cast<std::size_t>(iteration % 2);
         const int columns = EnergySum::kColumns;
         for (const Region& region : regions) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            const auto [halo_begin, halo_end] = halo_.around(first, last);
-            step.add(energies_[parity], iteration, region.begin, region.end, region.id)
-                .reads(after(iteration), halo_begin, halo_end)
+            const auto [seen_begin, seen_end] = seen_from(first, last);
+            auto task = step.add(energies_[parity], iteration, region.begin, region.end, region.id);
+            task.reads(after(iteration), seen_begin, seen_end)
                 .reads(substep_.targets(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
+            if (contact_) contact_->energy().add_terms_accesses(task, region.begin, region.end);
         }
         step.add(decide_, iteration, 0, 1, 0)
             .reads(energy_.partials(), 0, columns * model_.strips.count())
@@ -206,20 +239,23 @@ private:
     }
 
     void add_descent(Step& step, int iteration, int begin, int end, int region) {
-        const bool is_fresh = refreshes(iteration);
+        const bool is_fresh = contact_ || refreshes(iteration);
         const auto parity = static_cast<std::size_t>(iteration % 2);
         const auto [first, last] = substep_.vertices(begin, end);
-        const auto [halo_begin, halo_end] = halo_.around(first, last);
+        const auto [seen_begin, seen_end] = seen_from(first, last);
         auto task =
             step.add(is_fresh ? refreshes_[parity] : steps_[parity], iteration, begin, end, region);
         task.reads(control_, 0, WEFT_CONTROL_SIZE)
-            .reads(after(iteration), halo_begin, halo_end)
+            .reads(after(iteration), seen_begin, seen_end)
             .reads(substep_.targets(), first, last)
             .updates(after(iteration + 1), first, last)
             .reads(residue(iteration), first, last)
             .updates(residue(iteration + 1), first, last);
         derivatives_.add_hessian_accesses(task, first, last, is_fresh);
         substep_.add_obstacle_accesses(task, first, last);
+        if (!contact_) return;
+        contact_->rows().add_reads(task, begin, end, first, last);
+        contact_->add_truncation_accesses(task, first, last);
     }
 
     void add_velocities(Step& step, const Region& region) {
@@ -232,6 +268,7 @@ private:
     Model& model_;
     int iterations_;
     DescentSubstep substep_;
+    ContactResponse* contact_;  ///< null: none
     VertexItems items_;
     VertexDerivatives derivatives_;
     EnergySum energy_;

@@ -20,10 +20,11 @@ void refuse_contact(const Scene& scene) {
     if (!scene.contact) return;
     const Method method = scene.solver.method;
     const std::string path = scene.path.empty() ? "the scene" : scene.path;
-    if (method != Method::kVbd) {
-        throw UserError(
-            fmt::format("{}: [contact] needs solver.method = \"vbd\"; {} does not know it yet",
-                        path, name_of(method)));
+    if (method == Method::kNewton) {
+        throw UserError(fmt::format(
+            "{}: {} does not know [contact] yet; take solver.method = \"vbd\", \"sosd\", "
+            "\"jpgd\" or \"xpbd\"",
+            path, name_of(method)));
     }
     if (!scene.seams.empty() || !scene.attachments.empty()) {
         throw UserError(path +

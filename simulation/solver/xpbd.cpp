@@ -2,39 +2,58 @@
 
 #include "kernels/motion.h"
 #include "runtime/planning/regions.h"
+#include "simulation/contact/projection.h"
 
 namespace weft {
 
 namespace {
 
-enum Kind { kPredict, kSeams, kStrips, kVelocities };
+enum Kind { kPredict, kSeams, kStrips, kVelocities, kPush, kContact };
 
 /// The multipliers of one family: a buffer per constraint.
 using Multipliers = std::vector<std::unique_ptr<Buffer<float>>>;
 
 class XpbdSolver final : public Solver {
 public:
-    explicit XpbdSolver(Model& model) : model_(model) {
+    explicit XpbdSolver(Model& model)
+        : model_(model), contact_(ContactResponse::of(model, kContact)) {
+        if (contact_) projection_ = std::make_unique<ContactProjection>(model, *contact_);
         for (const auto& family : model.families) add_multipliers(*family);
         make_predict();
         for (const int fresh : {0, 1}) {
             seams_[fresh] = {"seams", kSeams, project(kSeamPhase, fresh)};
             strips_[fresh] = {"strips", kStrips, project(kInnerPhase, fresh)};
-            if (model.obstacles) {
-                model.obstacles->add_launches(strips_[fresh].launches, model.vertices(),
-                                              *model.positions, *model.previous);
-            }
+            auto& launches = strips_[fresh].launches;
+            if (contact_)
+                projection_->add_snapshot(launches);
+            else
+                add_obstacles(launches);
         }
+        if (contact_) make_push();
         make_velocities();
     }
 
     std::vector<const TaskBody*> bodies() const override {
-        return {&predict_, &seams_[1], &strips_[1], &seams_[0], &strips_[0], &velocities_};
+        std::vector<const TaskBody*> list{&predict_,  &seams_[1],  &strips_[1],
+                                          &seams_[0], &strips_[0], &velocities_};
+        if (!contact_) return list;
+        list.push_back(&push_);
+        for (const TaskBody* body : contact_->bodies()) list.push_back(body);
+        return list;
     }
 
     std::vector<std::string> kinds() const override {
-        return {"predict", "seams", "strips", "velocities"};
+        std::vector<std::string> names{"predict", "seams", "strips", "velocities"};
+        if (!contact_) return names;
+        names.push_back(push_.name);
+        for (std::string& kind : contact_->kinds()) names.push_back(std::move(kind));
+        return names;
     }
+
+    std::vector<RowTable*> tables() override {
+        return contact_ ? contact_->tables() : std::vector<RowTable*>{};
+    }
+    ContactResponse* contact() override { return contact_.get(); }
 
     std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
 
@@ -46,10 +65,12 @@ public:
         const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) add_predict(step, region);
+        if (contact_) contact_->add_detection(step, regions);
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
         for (const Region& region : regions) add_velocities(step, region);
+        if (contact_) contact_->energy().add(step, regions, model_.scene.solver.iterations - 1);
         step.seal();
         return step;
     }
@@ -62,6 +83,20 @@ private:
                                            static_cast<float>(model_.h), kInstance));
         if (model_.moving_pins)
             model_.moving_pins->add_launches(predict_.launches, *model_.positions);
+        // Free vertices are at x~ now.
+        if (contact_) contact_->add_begin(predict_.launches, *model_.positions);
+    }
+
+    void add_obstacles(std::vector<Launch>& launches) {
+        if (!model_.obstacles) return;
+        model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
+                                       *model_.previous);
+    }
+
+    void make_push() {
+        push_ = {"push", kPush, {projection_->project()}};
+        add_obstacles(push_.launches);
+        contact_->add_truncation(push_.launches, *model_.positions);
     }
 
     void make_velocities() {
@@ -76,6 +111,7 @@ private:
             update(kernels::update_damped_velocities);
         else
             update(kernels::update_velocities);
+        if (contact_) contact_->add_count(velocities_.launches);
     }
 
     void add_multipliers(const ElementFamily& family) {
@@ -105,29 +141,34 @@ private:
     void add_predict(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        step.add(predict_, 0, region.begin, region.end, region.id)
-            .reads(*model_.velocities, begin, end)
+        auto task = step.add(predict_, 0, region.begin, region.end, region.id);
+        task.reads(*model_.velocities, begin, end)
             .updates(*model_.positions, begin, end)
             .updates(*model_.previous, begin, end);
+        if (contact_) contact_->add_begin_accesses(task, begin, end);
     }
 
     void add_velocities(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        step.add(velocities_, model_.scene.solver.iterations - 1, region.begin, region.end,
-                 region.id)
-            .reads(*model_.positions, begin, end)
+        auto task = step.add(velocities_, model_.scene.solver.iterations - 1, region.begin,
+                             region.end, region.id);
+        task.reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
+        if (contact_) contact_->add_count_accesses(task, begin, end);
     }
 
-    /// First what crosses from strip to strip, then the strips.
+    /// First what crosses from strip to strip, then the strips, then contacts.
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
         for (const Region& region : regions) {
             for_each_part(
                 region,
                 [&](int begin, int end) { add_seams(step, iteration, begin, end, region.id); },
                 [&](int begin, int end) { add_strips(step, iteration, begin, end, region.id); });
+        }
+        for (const Region& region : regions) {
+            if (contact_) add_push(step, iteration, region);
         }
     }
 
@@ -146,9 +187,21 @@ private:
         auto task = step.add(body, iteration, begin, end, id);
         task.updates(*model_.positions, first_vertex(begin), first_vertex(end));
         update_multipliers(task, body);
-        if (model_.obstacles) {
+        if (contact_) {
+            projection_->add_snapshot_accesses(task, iteration, first_vertex(begin),
+                                               first_vertex(end));
+        } else if (model_.obstacles) {
             task.reads(*model_.previous, first_vertex(begin), first_vertex(end));
         }
+    }
+
+    void add_push(Step& step, int iteration, const Region& region) {
+        const int begin = first_vertex(region.begin);
+        const int end = first_vertex(region.end);
+        auto task = step.add(push_, iteration, region.begin, region.end, region.id);
+        projection_->add_project_accesses(task, iteration, region.begin, region.end);
+        contact_->add_truncation_accesses(task, begin, end);
+        if (model_.obstacles) task.reads(*model_.previous, begin, end);
     }
 
     void update_multipliers(Step::Adding& task, const TaskBody& body) {
@@ -160,8 +213,11 @@ private:
     }
 
     Model& model_;
-    std::vector<Multipliers> multipliers_;  ///< [families] as the model's
+    std::vector<Multipliers> multipliers_;           ///< [families] as the model's
+    std::unique_ptr<ContactResponse> contact_;       ///< null: none
+    std::unique_ptr<ContactProjection> projection_;  ///< likewise
     TaskBody predict_, velocities_;
+    TaskBody push_;                  ///< empty: no contact
     TaskBody seams_[2], strips_[2];  ///< [fresh]
 };
 

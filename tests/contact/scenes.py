@@ -172,6 +172,14 @@ SHORT = {
     "sphere5": hit_sphere(5.0),
 }
 
+# For the other solvers: through each other from the first substep on, pressed together for long,
+# and a solid. They share all that comes before and behind the iterations.
+OTHER_SOLVERS = {
+    "sosd": ["fast_sheets", "needle", "pressed_blocks"],
+    "jpgd": ["fast_sheets", "needle", "pressed_blocks", "knife"],
+    "xpbd": ["fast_sheets", "needle", "pressed_blocks", "fold"],
+}
+
 # What is led further in a substep than others can give way.
 TOO_FAST = {
     "sphere20": hit_sphere(20.0),

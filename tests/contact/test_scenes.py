@@ -19,6 +19,8 @@ pytestmark = pytest.mark.skipif(oracle is None, reason="needs ipctk and libigl f
 
 WEFT = os.environ["WEFT"]
 CASES = [(name, text) for name, text in scenes.SHORT.items()]
+CASES += [(f"{solver}_{name}", scenes.SHORT[name].replace('"vbd"', f'"{solver}"'))
+          for solver, names in scenes.OTHER_SOLVERS.items() for name in names]
 if os.environ.get("WEFT_LONG"):
     CASES += [(f"long_{name}", text) for name, text in scenes.LONG.items()]
 

@@ -7,6 +7,7 @@
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
 #include "kernels/descent/free_bodies.h"
+#include "kernels/xpbd/contacts.h"
 #include "runtime/row_table.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -186,6 +187,24 @@ void measure_case(KernelCase& c) {
                       contacts.measures, energies, c.items, kInstance);
 }
 
+void share_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
+    c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.counts,
+                      snapshots, c.items, kIteration);
+}
+
+void project_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
+    for (float& l : multipliers.span()) l = c.random.real(0.0f, 0.1f);
+    c.launch = launch(kernels::project_contacts, c.segments, contacts.positions, snapshots,
+                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
+                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
+                      contacts.measures, multipliers, c.items, 1e4f, kIteration);
+}
+
 /// Lists of random entries: begin [items + 1], list.
 std::pair<Buffer<int>*, Buffer<int>*> add_lists(KernelCase& c, const std::string& name, int items,
                                                 int end) {
@@ -258,7 +277,8 @@ const bool added =
     add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
     add_case("add_lags_and_contacts", lags_case);
 const bool added_of_solvers =
-    add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case);
+    add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
+    add_case("share_masses", share_case) && add_case("project_contacts", project_case);
 
 }  // namespace
 }  // namespace weft::test

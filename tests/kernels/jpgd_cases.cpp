@@ -3,6 +3,7 @@
 #include "kernels/descent/membranes.h"
 #include "kernels/descent/springs.h"
 #include "kernels/descent/tetrahedra.h"
+#include "kernels/jpgd/contacts.h"
 #include "kernels/jpgd/control.h"
 #include "kernels/jpgd/step.h"
 #include "tests/kernels/kernel_case.h"
@@ -119,21 +120,51 @@ void revert_case(KernelCase& c) {
     c.launch = launch(kernels::keep_or_revert, c.segments, positions, kept, control);
 }
 
+/// What both kinds of steps take.
+struct StepCase {
+    Buffer<float4>&positions, &next, &residue, &next_residue, &targets;
+    Buffer<float>&sums, &control, &weights;
+
+    explicit StepCase(KernelCase& c)
+        : positions(add_points(c, "positions", c.items)),
+          next(add_points(c, "next", c.items)),
+          residue(add_points(c, "residue", c.items)),
+          next_residue(add_points(c, "next_residue", c.items)),
+          targets(add_points(c, "targets", c.items)),
+          sums(add_reals(c, "sums", 9 * c.items, 0.0f, 1.0f)),
+          control(add_control(c)),
+          weights(c.add<float>("weights", 3)) {
+        weights[0] = 1.0f;
+        weights[1] = 1.5f;
+        weights[2] = 1.8f;
+    }
+};
+
 void step_case(KernelCase& c) {
-    auto& positions = add_points(c, "positions", c.items);
-    auto& next = add_points(c, "next", c.items);
+    StepCase s(c);
+    c.launch = launch(kernels::step_preconditioned, c.segments, s.positions, s.next, s.residue,
+                      s.next_residue, s.targets, s.sums, s.control, s.weights, c.items, 1e2f,
+                      1 + c.items % 3);
+}
+
+Buffer<int>& add_zeros_and_ones(KernelCase& c, const std::string& name) {
+    auto& values = c.add<int>(name, c.items);
+    for (int& value : values.span()) value = c.random.integer(0, 1);
+    return values;
+}
+
+void step_beside_contacts_case(KernelCase& c) {
+    StepCase s(c);
+    auto& counts = add_zeros_and_ones(c, "counts");
+    c.launch = launch(kernels::step_beside_contacts, c.segments, s.positions, s.next, s.residue,
+                      s.next_residue, s.targets, s.sums, s.control, s.weights, counts, c.items,
+                      1e2f, 1 + c.items % 3);
+}
+
+void drop_case(KernelCase& c) {
+    auto& cut = add_zeros_and_ones(c, "cut");
     auto& residue = add_points(c, "residue", c.items);
-    auto& next_residue = add_points(c, "next_residue", c.items);
-    auto& targets = add_points(c, "targets", c.items);
-    auto& sums = add_reals(c, "sums", 9 * c.items, 0.0f, 1.0f);
-    auto& control = add_control(c);
-    auto& weights = c.add<float>("weights", 3);
-    weights[0] = 1.0f;
-    weights[1] = 1.5f;
-    weights[2] = 1.8f;
-    c.launch =
-        launch(kernels::step_preconditioned, c.segments, positions, next, residue, next_residue,
-               targets, sums, control, weights, c.items, 1e2f, 1 + c.items % 3);
+    c.launch = launch(kernels::drop_residues, c.segments, cut, residue);
 }
 
 const bool added =
@@ -142,7 +173,9 @@ const bool added =
     add_case("tetrahedron_terms", tetrahedron_terms_case) &&
     add_case("inertia_terms", inertia_terms_case) && add_case("add_terms", add_terms_case) &&
     add_case("decide_step", decide_case) && add_case("keep_or_revert", revert_case) &&
-    add_case("step_preconditioned", step_case);
+    add_case("step_preconditioned", step_case) &&
+    add_case("step_beside_contacts", step_beside_contacts_case) &&
+    add_case("drop_residues", drop_case);
 
 }  // namespace
 }  // namespace weft::test

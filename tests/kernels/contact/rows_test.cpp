@@ -1,5 +1,5 @@
 // What contacts do to vertices, against what their energy says: forces by differences, energies one
-// contact at a time.
+// contact at a time, and where XPBD's projections end.
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/contact/terms.h"
+#include "kernels/xpbd/contacts.h"
 #include "runtime/row_table.h"
 #include "simulation/families/convert.h"
 #include "tests/kernels/kernel_case.h"
@@ -20,6 +21,7 @@ constexpr float kRange = 0.1f;
 constexpr int kVertices = 20;
 constexpr int kHeld = 4;
 constexpr int kContacts = 24;
+constexpr double kInverseH2 = 1e4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -52,7 +54,9 @@ public:
                    &table_.add_column<int>("corner2"), &table_.add_column<int>("corner3")},
           normals_(table_.add_column<float4>("normals")),
           weights_(table_.add_column<float4>("weights")),
-          measures_(table_.add_column<float4>("measures")) {
+          measures_(table_.add_column<float4>("measures")),
+          multipliers_(table_.add_column<float>("multipliers")),
+          snapshots_("snapshots", 2 * kVertices) {
         for (int v = 0; v < kVertices; ++v) {
             positions[at(v)] = random_.point(0.04f);
             positions[at(v)].w = is_free(v) ? random_.real(0.5f, 2.0f) : 0.0f;
@@ -95,6 +99,19 @@ public:
             gradient.push_back({sums[v], sums[v + kVertices], sums[v + 2 * kVertices]});
         }
         return gradient;
+    }
+
+    /// One iteration of XPBD without any elements.
+    void project(int iteration) {
+        const Launch share = launch(kernels::share_masses, Segments{}, positions, table_.counts(),
+                                    snapshots_, kVertices, kIteration);
+        run_on_host(share, share.kernel->scalar, 0, kVertices, 0, iteration);
+        const Launch push =
+            launch(kernels::project_contacts, Segments{}, positions, snapshots_, table_.rows(),
+                   table_.counts(), *corners_[0], *corners_[1], *corners_[2], *corners_[3],
+                   normals_, weights_, measures_, multipliers_, kVertices,
+                   static_cast<float>(kInverseH2), kIteration);
+        run_on_host(push, push.kernel->scalar, 0, kVertices, 0, iteration);
     }
 
     double gap(const TestContact& c) const {
@@ -164,6 +181,8 @@ private:
     RowTable table_;
     std::array<Buffer<int>*, 4> corners_;
     Buffer<float4>&normals_, &weights_, &measures_;
+    Buffer<float>& multipliers_;
+    Buffer<float4> snapshots_;
 };
 
 TEST(ContactRows, EachContactHasItsEnergyOnce) {
@@ -202,6 +221,42 @@ TEST(ContactRows, TheForceIsTheEnergysSlope) {
         EXPECT_NEAR(slope(&float4::x), gradient[at(v)].x, 1e-3 * largest) << v;
         EXPECT_NEAR(slope(&float4::y), gradient[at(v)].y, 1e-3 * largest) << v;
         EXPECT_NEAR(slope(&float4::z), gradient[at(v)].z, 1e-3 * largest) << v;
+    }
+}
+
+/// Where the inertia that pulls back to the start and the forces of contacts are equal: at the
+/// minimum of the energy that the other solvers minimise.
+TEST(ContactProjection, EndsAtTheMinimumOfTheStepsEnergy) {
+    for (const unsigned seed : {5U, 6U, 7U}) {
+        TouchingVertices touching(seed, kHeld);
+        std::vector<Vec3> start;
+        for (const float4& x : touching.positions.span()) start.push_back(to_vec3(x));
+        for (int iteration = 0; iteration < 2000; ++iteration) touching.project(iteration);
+        const auto gradient = touching.gradient();
+        double moved = 0.0;
+        for (int v = kHeld; v < kVertices; ++v) {
+            const float4& x = touching.positions[at(v)];
+            const Vec3 inertia = (kInverseH2 / double{x.w}) * (to_vec3(x) - start[at(v)]);
+            moved = std::max(moved, length(inertia));
+            EXPECT_LT(length(inertia + gradient[at(v)]), 1e-2) << "N at vertex " << v;
+        }
+        EXPECT_GT(moved, 10.0) << "N";
+        for (int v = 0; v < kHeld; ++v) EXPECT_EQ(to_vec3(touching.positions[at(v)]), start[at(v)]);
+    }
+}
+
+Vec3 momentum(const Buffer<float4>& positions) {
+    Vec3 sum;
+    for (const float4& x : positions.span()) sum = sum + (1.0 / double{x.w}) * to_vec3(x);
+    return sum;
+}
+
+TEST(ContactProjection, WhatOneVertexGetsTheOthersGive) {
+    TouchingVertices touching(8, 0);
+    const Vec3 before = momentum(touching.positions);
+    for (int iteration = 0; iteration < 5; ++iteration) {
+        touching.project(iteration);
+        EXPECT_LT(length(momentum(touching.positions) - before), 1e-6) << iteration;
     }
 }
 

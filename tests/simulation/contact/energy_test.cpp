@@ -152,7 +152,8 @@ TEST_P(ContactEnergyOf, ShorterStepsStoreMore) {
     EXPECT_TRUE(run.troubles().empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ContactEnergyOf, testing::Values(Method::kVbd),
+INSTANTIATE_TEST_SUITE_P(Methods, ContactEnergyOf,
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
                          [](const auto& given) { return std::string(name_of(given.param)); });
 
 }  // namespace

@@ -35,7 +35,8 @@ struct TestCase {
 
 std::string name_of_case(const testing::TestParamInfo<TestCase>& info) {
     std::string name(name_of(info.param.method));
-    name += info.param.scene == &kSolids ? "Solids" : "Everything";
+    const bool touches = info.param.scene == &kTouching;
+    name += info.param.scene == &kSolids ? "Solids" : touches ? "Touching" : "Everything";
     return name + std::to_string(info.param.iterations);
 }
 
@@ -152,7 +153,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(TestCase{Method::kXpbd, &kEverything}, TestCase{Method::kXpbd, &kSolids},
                     TestCase{Method::kVbd, &kEverything}, TestCase{Method::kVbd, &kSolids},
                     TestCase{Method::kSosd, &kEverything}, TestCase{Method::kSosd, &kSolids},
-                    TestCase{Method::kJpgd, &kEverything}, TestCase{Method::kJpgd, &kSolids, 4}),
+                    TestCase{Method::kJpgd, &kEverything}, TestCase{Method::kJpgd, &kSolids, 4},
+                    TestCase{Method::kXpbd, &kTouching}, TestCase{Method::kJpgd, &kTouching}),
     name_of_case);
 
 INSTANTIATE_TEST_SUITE_P(Solvers, OwnIteratesBesideOpenCl,

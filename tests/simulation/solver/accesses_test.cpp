@@ -109,6 +109,7 @@ std::string name_of_case(
     const char* scene = text == &kEverything ? "Cloth"
                         : text == &kSolids   ? "Solids"
                         : text == &kWoven    ? "Woven"
+                        : text == &kTouching ? "Touching"
                                              : "Sewn";
     return std::string(name_of(method)) + scene;
 }
@@ -118,6 +119,11 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Accesses,
                                                           Method::kSosd, Method::kJpgd,
                                                           Method::kNewton),
                                           testing::Values(&kEverything, &kSolids, &kWoven, &kSewn)),
+                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(InContact, Accesses,
+                         testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
+                                                          Method::kSosd, Method::kJpgd),
+                                          testing::Values(&kTouching)),
                          name_of_case);
 
 }  // namespace

@@ -95,7 +95,8 @@ TEST_P(ContactDescent, ReachesTheMinimum) {
     EXPECT_LT(last, 2e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, ContactDescent, testing::Values(Method::kVbd),
+INSTANTIATE_TEST_SUITE_P(Methods, ContactDescent,
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
                          [](const auto& given) { return std::string(name_of(given.param)); });
 
 }  // namespace

@@ -1,0 +1,90 @@
+#ifndef WEFT_KERNELS_XPBD_CONTACTS_H
+#define WEFT_KERNELS_XPBD_CONTACTS_H
+
+// Contacts as constraints: the multiplier l of each is to become -h^2 E'(g), E being the energy of
+// all solvers (contact/energy.h), so l >= 0, and 0 where the gap g is beyond the range. While
+// E is a parabola, that is a constraint g - range >= 0 with compliance 1/k (Macklin, Mueller and
+// Chentanez 2016); further in, a step of Newton's method for l stands in its place. It never goes
+// too far in from too few: E' is concave.
+//
+// All contacts are projected at once, from positions that all vertices share. So that those of one
+// vertex do not do its work several times over, each gets a part of its mass (Tonge, Benevolenski
+// and Voroshilov 2012): a vertex with n contacts is n times as light for each of them. All vertices
+// of a contact compute the same change of its multiplier, from the same numbers in the same order,
+// so what one of them gets, the others give.
+
+#include "kernels/contact/rows.h"
+
+WEFT_KERNELS_BEGIN
+
+/// Lets all see where the elements have led the vertices.
+/// positions  [vertices] xyz [m], w = 1/mass [1/kg]
+/// counts     [vertices] how many contacts each has
+/// snapshots  [2 * vertices] written: of odd iterations in the second half; w = 1/mass of the part
+///            of a contact [1/kg]
+WEFT_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
+            WEFT_GLOBAL float4* snapshots, int vertex_count, int iteration) {
+    const real4 x = load4(positions, i);
+    const whole count = load_whole(counts, i);
+    const int longest = largest_whole(count);
+    real light = splat(0.0f);
+    for (int k = 0; k < longest; ++k) light = splat_whole(k) < count ? light + x.w : light;
+    store4(snapshots, column(i, vertex_count, iteration % 2), with_w(xyz(x), light));
+}
+
+/// By how much the multiplier of a contact changes.
+/// lightness  the sum of w_j^2 / mass_j [1/kg]
+WEFT_INLINE real change_of_multiplier(contact_entry c, real multiplier, real lightness,
+                                      float inverse_h2) {
+    const real lack = multiplier * splat(inverse_h2) + contact_slope(c.gap, c.range, c.stiffness);
+    const real curvature = contact_curvature(c.gap, c.range, c.stiffness);
+    const real change = -lack / (splat(inverse_h2) + curvature * lightness);
+    return larger(change, -multiplier);
+}
+
+/// Pushes vertices apart. Over all vertices.
+/// positions    [vertices] xyz [m], w = 1/mass [1/kg]; written where there are contacts
+/// snapshots    [2 * vertices] as share_masses leaves them
+/// multipliers  [entries] l [N s^2]; taken as 0 in iteration 0
+/// inverse_h2   1 / h^2 [1/s^2], h the substep
+/// others as in gather_contacts (contact/rows.h)
+WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* multipliers, int vertex_count,
+            float inverse_h2, int iteration) {
+    const whole count = load_whole(counts, i);
+    const int longest = largest_whole(count);
+    if (longest > 0) {
+        WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
+        const whole start = load_whole(rows, i);
+        const real zero = splat(0.0f);
+        const real4 x = load4(positions, i);
+        real3 push = make3(zero, zero, zero);
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const integer entry =
+                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
+                                                 normals, weights, measures, entry);
+            const real4 w = gather4(weights, entry);
+            const real light0 = gather4(snapshot, address(gather_whole(corner0, entry))).w;
+            const real light1 = gather4(snapshot, address(gather_whole(corner1, entry))).w;
+            const real light2 = gather4(snapshot, address(gather_whole(corner2, entry))).w;
+            const real light3 = gather4(snapshot, address(gather_whole(corner3, entry))).w;
+            const real lightness =
+                w.x * w.x * light0 + w.y * w.y * light1 + w.z * w.z * light2 + w.w * w.w * light3;
+            const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
+            const real change = change_of_multiplier(c, multiplier, lightness, inverse_h2);
+            scatter_where(on, multipliers, entry, multiplier + change);
+            push = add_scaled(push, c.normal, on ? c.own * change : zero);
+        }
+        store4(positions, i, with_w(add_scaled(xyz(x), push, x.w), x.w));
+    }
+}
+
+WEFT_KERNELS_END
+
+#endif

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "simulation/contact/response.h"
+
+namespace weft {
+
+/// Contacts as constraints of XPBD (kernels/xpbd/contacts.h). In each iteration the elements lead
+/// vertices anywhere, which is shown to all; then contacts push, all at once.
+class ContactProjection {
+public:
+    ContactProjection(Model& model, ContactResponse& contact);
+
+    /// Behind the elements.
+    void add_snapshot(std::vector<Launch>& launches);
+    void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
+
+    /// In a task of its own behind that, over strips [first_strip, end_strip).
+    Launch project();
+    void add_project_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
+
+private:
+    Model& model_;
+    ContactRows rows_;
+    Buffer<float>& multipliers_;  ///< [entries of the rows]
+    Buffer<float4> snapshots_;    ///< [2 * vertices]
+};
+
+}  // namespace weft
