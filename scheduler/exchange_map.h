@@ -21,7 +21,9 @@ struct CellRange {
 /// One task, as planned. Times are in any unit.
 struct ExchangeTask {
     int iteration = 0;
-    int stage = 0;             ///< it sees those of its iteration that have a smaller one
+    int stage = 0;  ///< it sees those of its iteration that have a smaller one
+    /// Those of one kind >= 0 follow each other, whatever the window.
+    int kind = -1;
     bool synchronous = false;  ///< it sees all before it, and all behind it see it
     int device = 0;
     double start = 0.0;
@@ -38,6 +40,7 @@ struct ExchangeProblem {
     /// A task sees all that other devices did in iterations up to its own less this; 1: all that
     /// comes before it, as in the synchronous solver.
     int window = 2;
+    bool iterations_in_turn = false;  ///< it sees all of earlier iterations, too
     double wait = 0.0;  ///< from a task's end until another device can have its result
     /// Who gets an owner's cell takes it as it is, and drops what it has done to it: the owner gets
     /// that, too. Else both are merged.
@@ -52,6 +55,15 @@ std::vector<std::vector<int>> needed_tasks(const ExchangeProblem& problem);
 /// Sets starts and ends: each device does its tasks in their order, as soon as what they need is
 /// there. durations [task]
 void plan_in_turn(ExchangeProblem& problem, const std::vector<double>& durations);
+
+/// In which order tasks are given to devices: by rank_u, or by the one that keeps iterations in
+/// sequence (ranks.h).
+enum class PlacingRank { kUpward, kGaussSeidel };
+
+/// Sets devices, too, by HEFT: each task goes where it ends earliest.
+/// durations  [task][device], infinite where it cannot be
+void place_by_rank(ExchangeProblem& problem, const std::vector<std::vector<double>>& durations,
+                   PlacingRank rank);
 
 /// One thing to do. A place is where a value of a cell lies: that many of the first ones are the
 /// devices' iterates, the others slots.

@@ -9,6 +9,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
+#include "simulation/async_offer.h"
 #include "simulation/contact/response.h"
 #include "simulation/diagnosis.h"
 #include "simulation/error_samples.h"
@@ -26,7 +27,9 @@ namespace {
 /// With as many iterates as the options ask for, or asynchronous devices need.
 std::unique_ptr<Solver> make_solver_for(Model& model, const SimulationOptions& options,
                                         std::size_t devices) {
-    auto solver = options.make_solver(model);
+    const bool by_kinds =
+        options.plan == PlanKind::kAsync && options.async.tasks == AsyncSettings::Tasks::kKinds;
+    auto solver = by_kinds ? make_solver_by_kinds(model) : options.make_solver(model);
     if (options.plan == PlanKind::kAsync) {
         const int iterates = std::max(options.iterates, static_cast<int>(devices));
         return std::make_unique<AsyncIterates>(model, std::move(solver), iterates, options.async);
@@ -83,7 +86,9 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
         *solver_, model_->strips.count(), std::move(devices),
         PlanningOptions{options.plan, options.division, options.cost_file,
                         options.device_options.strict_math});
-    if (options.calibrate) calibrate(warnings);
+    if (!options.calibrate) return;
+    calibrate(warnings);
+    if (has_async_choice()) choose_async(warnings);
 }
 
 Simulation::~Simulation() = default;
@@ -180,6 +185,40 @@ void Simulation::calibrate(Warnings& warnings) {
     const int instances = std::min(model_->scene.substeps, 2);
     run_->calibrate(
         instances, costs_known, [&] { restore(*start); }, warnings);
+}
+
+/// Where several devices could share the scene, and nobody has said how. Whoever measures single
+/// steps chooses by himself.
+bool Simulation::has_async_choice() const {
+    const bool is_open = options_.plan == PlanKind::kAuto && !options_.division &&
+                         options_.iterates == 1 && options_.on_trouble != OnTrouble::kIgnore;
+    return is_open && run_->division_by_units().devices().size() > 1 && !model_->scene.contact &&
+           !solver_->asynchrony().kinds.empty();
+}
+
+/// Once, before the first frame: the results of a run are those of one kind of plan.
+void Simulation::choose_async(Warnings& warnings) {
+    AsyncSettings settings = options_.async;
+    settings.tasks = AsyncSettings::Tasks::kStrips;
+    const AsyncOffer offer({*model_, *solver_, run_->next(), run_->planner().timing(),
+                            run_->division_by_units(), settings});
+    async_choice_ = offer.why();
+    if (!offer.is_better()) return;
+    if (!options_.may_be_async) {
+        async_choice_ = "not " + async_choice_ +
+                        "; but its results depend on the cuts between devices, so it has to be "
+                        "allowed (--async) or asked for (--plan async)";
+        return;
+    }
+    options_.plan = PlanKind::kAsync;
+    options_.async = settings;
+    const auto start = snapshot();
+    auto solver = make_solver_for(*model_, options_, run_->devices().size());
+    solver_.swap(solver);
+    run_->take_over(*solver_, model_->strips.count(), PlanKind::kAsync);
+    place();
+    restore(*start);
+    calibrate(warnings);
 }
 
 FrameRecord Simulation::advance(const FrameDetails& details) {
@@ -392,7 +431,11 @@ void Simulation::tell(const Alarm& alarm, const std::string& what) {
     troubles_.push_back({frame_, text, alarm.kind != Alarm::Kind::kDoubt});
 }
 
-RunDescription Simulation::describe() const { return describe_run(*model_, *solver_, devices()); }
+RunDescription Simulation::describe() const {
+    RunDescription run = describe_run(*model_, *solver_, devices());
+    if (!async_choice_.empty()) run.settings.emplace_back("async_choice", async_choice_);
+    return run;
+}
 
 std::vector<float> Simulation::positions() const { return snapshot()->scene_positions(*model_); }
 std::vector<float> Simulation::velocities() const { return snapshot()->scene_velocities(*model_); }

@@ -42,6 +42,9 @@ struct SimulationOptions {
     bool calibrate = true;             ///< measure the devices at the start; needed to plan
     int iterates = 1;                  ///< that devices may have of their own (Partition::spread)
     AsyncSettings async;               ///< for PlanKind::kAsync
+    /// Whether PlanKind::kAuto may take an asynchronous plan if that is predicted to be faster: the
+    /// results are then others, and which, depends on measured times.
+    bool may_be_async = false;
     /// Instead of the solver that the scene names, for tests and studies.
     std::function<std::unique_ptr<Solver>(Model&)> make_solver = weft::make_solver;
     OnTrouble on_trouble = OnTrouble::kStop;
@@ -119,6 +122,9 @@ public:
     const std::vector<std::unique_ptr<Device>>& devices() const { return run_->devices(); }
     const FramePlanner& planner() const { return run_->planner(); }
 
+    /// Why PlanKind::kAuto took an asynchronous plan or did not; empty: there was no such choice.
+    const std::string& async_choice() const { return async_choice_; }
+
     /// For traces: everything that is known before the first frame but the command line.
     RunDescription describe() const;
 
@@ -135,6 +141,8 @@ private:
     void place();
     void hand_over_placed();
     void calibrate(Warnings& warnings);
+    bool has_async_choice() const;
+    void choose_async(Warnings& warnings);
     void fetch();
     bool advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
@@ -159,6 +167,7 @@ private:
     std::unique_ptr<Watch> watch_;
     std::unique_ptr<ErrorSamples> samples_;  ///< null: nothing is estimated
     std::unique_ptr<PlannedExecutor> run_;
+    std::string async_choice_;
     int first_substeps_ = 0;     ///< that the run began with
     int most_iterations_ = 0;    ///< likewise
     int failed_iterations_ = 0;  ///< that were seen to be too few for the tolerance

@@ -116,10 +116,14 @@ void add_device_options(CLI::App& command, RunOptions& options) {
         ->capture_default_str()
         ->group(group);
     command
-        .add_option("--async", options.async,
-                    "how --plan async exchanges: window=N (iterations open at a time, 2), wait=W "
-                    "(until another device is told, in iterations), merge=auto|sum|mean|position, "
-                    "dropping=on|off, settle=N (last iterations in step)")
+        .add_option(
+            "--async", options.async,
+            "how --plan async exchanges: window=N (iterations open at a time, 2), wait=W "
+            "(until another device is told, in iterations), merge=auto|sum|mean|position, "
+            "dropping=on|off, settle=N (last iterations in step), "
+            "order=both|free|within|across (what may overlap); of xpbd also tasks=kinds "
+            "(devices share kinds of tasks, not strips), rank=on|off. With --plan auto: async "
+            "may be chosen if it is faster; \"\" is all defaults")
         ->type_name("KEY=VALUE,..")
         ->group(group);
     command

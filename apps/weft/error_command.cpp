@@ -97,7 +97,7 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
     CLI::Option* flag = command.add_flag(
         "--trajectory", options.trajectory,
         "measure whole runs instead: substeps x iterations, against a run with far smaller steps");
-    for (const char* other : {"--frame", "--substeps", "--max-iterations"}) {
+    for (const char* other : {"--frame", "--substeps", "--max-iterations", "--obstacles"}) {
         flag->excludes(command.get_option(other));
     }
     const auto add = [&](const char* name, auto& value, const char* help) {
@@ -134,7 +134,11 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
         ->check(one_of(method_names()));
     command.add_option("--devices", options.devices, "device lists, separated by commas (hybrid)")
         ->delimiter(',');
-    command.add_option("--plans", options.plans, "kinds of plans, separated by commas (auto)")
+    command
+        .add_option(
+            "--plans", options.plans,
+            "kinds of plans, separated by commas (auto); async with settings of its own, as "
+            "in async:window=3+dropping=on")
         ->delimiter(',');
     command
         .add_option("--max-iterations", options.max_iterations, "iterations that a curve goes to")
@@ -143,8 +147,14 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
                        "seconds of measuring after which a curve has no further point (10; whole "
                        "runs: 60)");
     command.add_option("--out", options.run.out, "output folder; default: out/<scene name>");
-    command.add_flag("--as-sweep", options.as_sweep,
-                     "measure nothing, but make a sweep of it, a run per curve, for weft batch");
+    CLI::Option* as_sweep = command.add_flag(
+        "--as-sweep", options.as_sweep,
+        "measure nothing, but make a sweep of it, a run per curve, for weft batch");
+    command
+        .add_flag("--obstacles", options.obstacles,
+                  "leave obstacles in the step; errors are then squared distances from where the "
+                  "first solver ends")
+        ->excludes(as_sweep);
     add_trajectory_options(command, options);
 }
 
@@ -166,6 +176,7 @@ void add_error_command(CLI::App& app) {
         "explains.\n\n"
         "Examples:\n"
         "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1\n"
+        "  weft error scenes/sheet.toml --devices cpu/1+opencl:0/1 --plans exact,async,single\n"
         "  weft error scenes/sheet.toml --trajectory --frames 20 --devices cpu/1\n"
         "  weft error scenes/flag.toml --devices cpu/1 --as-sweep      (docs/batch.md)");
     command->callback([options] { run_error(*options); });

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/weft/commands.h"
 #include "apps/weft/output_file.h"
@@ -21,6 +23,7 @@ struct GanttOptions {
     std::string trace;
     std::optional<std::uint32_t> frame;
     std::uint32_t substep = 0;
+    std::optional<std::string> iterations;
     std::optional<std::string> out;
 };
 
@@ -49,9 +52,21 @@ CanvasMaker canvas_for(const std::filesystem::path& path) {
                     path.string()));
 }
 
+/// An end that is left out is the frame's.
+std::pair<std::uint32_t, std::uint32_t> iterations_of(const std::string& text,
+                                                      const FrameRecord& frame) {
+    const NumberRange range = parse_range(text, "--iterations", "iteration");
+    if (range.last != NumberRange{}.last) return {range.first, range.last};
+    std::uint32_t last = range.first;
+    for (const PlanRecord& task : frame.plan) last = std::max(last, task.iteration);
+    return {range.first, last};
+}
+
 Gantt make_gantt(const GanttOptions& options, const RunDescription& run, const FrameRecord& frame) {
     try {
-        return Gantt(run, frame, options.substep);
+        GanttPart part{options.substep, std::nullopt};
+        if (options.iterations) part.iterations = iterations_of(*options.iterations, frame);
+        return Gantt(run, frame, part);
     } catch (const UserError& error) {
         throw UserError(options.trace + ": " + error.what());
     }
@@ -82,6 +97,10 @@ void add_gantt_command(CLI::App& trace) {
         ->type_name("K")
         ->capture_default_str();
     command
+        ->add_option("--iterations", options->iterations,
+                     "only these of the substep, the first and the last, as in 2:3; default: all")
+        ->type_name("A:B");
+    command
         ->add_option("--out", options->out,
                      "picture, .svg or .png; default: TRACE's name and folder, "
                      "-frameN-substepK.svg")
@@ -90,7 +109,8 @@ void add_gantt_command(CLI::App& trace) {
         "Arrows: a device needs what another one made, in the colour of the device that needs it;\n"
         "dashed: copies between memories. In SVG, the mouse over a task shows what it is.\n"
         "Prints the picture's name.\n\n"
-        "Example:\n  weft trace gantt out/tablecloth/trace.h5 --frame 10 --out schedule.png");
+        "Examples:\n  weft trace gantt out/tablecloth/trace.h5 --frame 10 --out schedule.png\n"
+        "  weft trace gantt out/tablecloth/trace.h5 --iterations 2:3    (as the paper draws them)");
     command->callback([options] { draw_gantt(*options); });
 }
 

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,43 +23,14 @@ struct PerfettoOptions {
     std::optional<std::string> out;
 };
 
-struct FrameRange {
-    std::uint32_t first = 0;
-    std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
-};
-
-/// "A:B", both included, either left out, or "A".
-FrameRange parse_range(const std::string& text) {
-    const auto wrong = [&]() {
-        return UserError(
-            fmt::format("--frames {}: expected A:B, the first and the last frame, "
-                        "as in 10:19",
-                        text));
-    };
-    const auto number = [&](const std::string& part, std::uint32_t fallback) {
-        if (part.empty()) return fallback;
-        std::uint32_t value = 0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (error != std::errc() || end != part.data() + part.size()) throw wrong();
-        return value;
-    };
-    FrameRange range;
-    const std::size_t colon = text.find(':');
-    if (text.empty() || text == ":") throw wrong();
-    range.first = number(text.substr(0, colon), range.first);
-    range.last =
-        colon == std::string::npos ? range.first : number(text.substr(colon + 1), range.last);
-    if (range.first > range.last) throw wrong();
-    return range;
-}
-
 void export_trace(const PerfettoOptions& options) {
     const TraceReader trace(options.trace);
-    const FrameRange range = options.frames ? parse_range(*options.frames) : FrameRange{};
+    const NumberRange range =
+        options.frames ? parse_range(*options.frames, "--frames", "frame") : NumberRange{};
     const auto& frames = trace.frames();
     if (options.frames) {  // both ends that were given must be there
         find_frame(trace, options.trace, range.first);
-        if (range.last != FrameRange{}.last) find_frame(trace, options.trace, range.last);
+        if (range.last != NumberRange{}.last) find_frame(trace, options.trace, range.last);
     } else {
         find_frame(trace, options.trace, std::nullopt);
     }

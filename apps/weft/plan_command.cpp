@@ -16,7 +16,11 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/cost_file.h"
 #include "apps/weft/graph_file.h"
+#include "apps/weft/output_file.h"
+#include "apps/weft/pictures/machine_picture.h"
+#include "apps/weft/pictures/write_pictures.h"
 #include "apps/weft/plan_text.h"
+#include "apps/weft/studies/machine_study.h"
 #include "apps/weft/trace_graph.h"
 #include "runtime/error.h"
 #include "scheduler/optimal.h"
@@ -47,6 +51,9 @@ struct PlanOptions {
     bool pinned = false;
     std::optional<std::string> strips;
     bool print_costs = false;
+    bool machines = false;
+    MachineGrid grid;
+    std::optional<std::string> out;
 };
 
 struct TimedPlan {
@@ -221,6 +228,31 @@ void refuse_trace_options(const PlanOptions& options) {
     refuse(options.pinned, "--pinned");
     refuse(options.strips.has_value(), "--strips");
     refuse(options.print_costs, "--print-costs");
+    refuse(options.machines, "--machines");
+}
+
+/// Beside the trace, unless it is said where.
+std::filesystem::path map_folder(const PlanOptions& options) {
+    if (!options.out) return std::filesystem::path(options.graph).parent_path();
+    std::error_code error;
+    std::filesystem::create_directories(*options.out, error);
+    if (error) throw UserError("--out: cannot make " + *options.out + ": " + error.message());
+    return *options.out;
+}
+
+void map_machines(const PlanOptions& options) {
+    const std::filesystem::path folder = map_folder(options);
+    const MachineStudy study =
+        study_machines(options.graph, options.frame, options.grid, options.json);
+    write_output(folder / "machines.csv", to_csv(study));
+    const std::string pictures = write_pictures(folder, "machines", MachinePicture(study));
+    if (options.json) {
+        std::cout << to_json(study).dump(2) << '\n';
+    } else {
+        std::cout << to_text(study)
+                  << fmt::format("\n{}: machines.csv, {}\n", folder.empty() ? "." : folder.string(),
+                                 pictures);
+    }
 }
 
 void plan_file(const PlanOptions& options) {
@@ -229,6 +261,7 @@ void plan_file(const PlanOptions& options) {
         GraphFile file = read_graph_file(options.graph);
         return plan_graph(file, options, nullptr);
     }
+    if (options.machines) return map_machines(options);
     TraceGraph trace = read_trace_graph(
         {options.graph, options.frame, options.costs, options.strips, options.pinned});
     if (options.print_costs) {
@@ -256,6 +289,34 @@ void add_adaptation_options(CLI::App& command, Adaptations& adaptations) {
         ->group(group);
 }
 
+void add_machine_options(CLI::App& command, PlanOptions& options) {
+    const std::string group = "Machines that need not be there";
+    CLI::Option* machines = command.add_flag(
+        "--machines", options.machines,
+        "which of single, exact, placed and async takes least to the error that the trace's "
+        "iterations reach, over the machines below; machines.csv, .svg and .png");
+    machines->group(group);
+    for (const char* other : {"--costs", "--pinned", "--strips", "--print-costs", "--compare"}) {
+        machines->excludes(command.get_option(other));
+    }
+    const auto add = [&](const char* name, auto& values, const char* help) {
+        return command.add_option(name, values, help)
+            ->delimiter(',')
+            ->needs(machines)
+            ->capture_default_str()
+            ->group(group);
+    };
+    add("--waits", options.grid.waits, "seconds from a task's end to one on another device")
+        ->check(CLI::Range(0.0, 10.0));
+    add("--ratios", options.grid.ratios, "how many times as fast every second device is")
+        ->check(CLI::Range(1.0, 1e6));
+    add("--device-counts", options.grid.devices, "numbers of devices")->check(CLI::Range(2, 16));
+    command.add_option("--out", options.out, "folder; default: the trace's")
+        ->type_name("DIR")
+        ->needs(machines)
+        ->group(group);
+}
+
 }  // namespace
 
 void add_plan_command(CLI::App& app) {
@@ -278,7 +339,8 @@ void add_plan_command(CLI::App& app) {
         "  weft plan graph.json --algorithm heft-gs --open-iterations 2\n"
         "  weft plan out/flag/trace.h5 --frame 20 --algorithm in-order --pinned\n"
         "  weft plan out/flag/trace.h5 --frame 20 --print-costs >costs.json   # edit, then:\n"
-        "  weft plan out/flag/trace.h5 --frame 20 --costs costs.json --strips auto --pinned");
+        "  weft plan out/flag/trace.h5 --frame 20 --costs costs.json --strips auto --pinned\n"
+        "  weft plan out/flag/trace.h5 --frame 20 --machines --device-counts 2,4");
     const auto options = std::make_shared<PlanOptions>();
     command->add_option("GRAPH", options->graph, "task graph (.json), or trace of a run (.h5)")
         ->required()
@@ -321,6 +383,7 @@ void add_plan_command(CLI::App& app) {
         ->add_flag("--print-costs", options->print_costs,
                    "print the costs as a file for --costs, and stop")
         ->group(group);
+    add_machine_options(*command, *options);
     command->callback([options] {
         try {
             plan_file(*options);

@@ -1,5 +1,6 @@
 #include "apps/weft/run_options.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -20,6 +21,20 @@ std::optional<MemoryModel> memory_model(const std::string& name) {
     }
     return std::nullopt;
 }
+
+/// "async:rank=off+window=3": one of a list of plans, whose commas are the list's.
+struct PlanName {
+    std::string kind, settings;
+
+    explicit PlanName(const std::string& text) : kind(text.substr(0, text.find(':'))) {
+        if (kind.size() == text.size()) return;
+        if (kind != "async") {
+            throw UserError(fmt::format("--plans {}: only async has settings", text));
+        }
+        settings = text.substr(kind.size() + 1);
+        std::ranges::replace(settings, '+', ',');
+    }
+};
 
 PlanKind plan_kind(const std::string& name) {
     if (name == "auto") return PlanKind::kAuto;
@@ -68,8 +83,15 @@ std::vector<Override> RunOptions::overrides() const {
 SimulationOptions RunOptions::simulation() const {
     SimulationOptions options;
     options.devices = device;
-    options.plan = plan_kind(plan);
-    options.async = parse_async_settings(async);
+    const PlanName name(plan);
+    options.plan = plan_kind(name.kind);
+    const std::string given = async.value_or("");
+    options.async = parse_async_settings(given + (given.empty() ? "" : ",") + name.settings);
+    options.may_be_async = async.has_value();
+    if (options.may_be_async && options.plan == PlanKind::kAuto &&
+        options.async.tasks == AsyncSettings::Tasks::kKinds) {
+        throw UserError("--async tasks=kinds: is for --plan async; auto divides strips alone");
+    }
     options.device_options.strict_math = math == "strict";
     options.device_options.memory = memory_model(memory);
     if (!strips.empty()) options.division = Division{strips};

@@ -14,7 +14,8 @@ struct RunOptions {
     std::string scene;
     std::string device = "hybrid";
     std::string plan = "auto";
-    std::string async;  ///< how --plan async exchanges
+    /// How --plan async exchanges. Given, --plan auto may choose it.
+    std::optional<std::string> async;
     std::string math = "strict";
     std::string memory = "auto";
     std::string on_trouble = "stop";

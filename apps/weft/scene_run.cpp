@@ -12,6 +12,7 @@
 #include "runtime/error.h"
 #include "runtime/io/cache_folder.h"
 #include "simulation/bodies/mesh_files.h"
+#include "simulation/solver/async_iterates.h"
 
 namespace weft {
 
@@ -71,7 +72,20 @@ std::string SceneRun::origin() const {
         if (!value.starts_with("scene.frames=")) text += '\n' + value;
     }
     for (const BodyMesh& mesh : mesh_files(scene_)) text += '\n' + file_hash(mesh.path);
+    text += async_origin();
     return cache_key(text);
+}
+
+/// Asynchronous results depend on the map, which depends on the cuts.
+std::string SceneRun::async_origin() const {
+    const auto* async = dynamic_cast<const AsyncIterates*>(&simulation_->solver());
+    if (async == nullptr) return "";
+    std::string text = '\n' + to_text(async->settings());
+    text += fmt::format("\nstrips {}\nunits", fmt::join(options_.strips, ","));
+    for (const auto& device : simulation_->devices()) {
+        text += fmt::format(" {}", device->info().units);
+    }
+    return text;
 }
 
 /// Where nothing was left to go on from, the run begins at the beginning.
@@ -128,6 +142,9 @@ void SceneRun::say_what_runs() const {
         "weft: {}: {} vertices, {} substeps x {} iterations, {} frames on {}\n", scene_.name,
         model.vertex_count(), model.scene.substeps, scene_.solver.iterations, scene_.frames,
         fmt::join(devices, " + "));
+    if (options_.async && !simulation_->async_choice().empty()) {
+        std::cerr << fmt::format("weft: {}\n", simulation_->async_choice());
+    }
 }
 
 /// Of the scene, and of the devices.

@@ -31,6 +31,7 @@ private:
     void say_what_runs() const;
     Warnings all_warnings() const;
     std::string origin() const;
+    std::string async_origin() const;
     void find_earlier(const RunDescription& description);
     void take_over();
     void open_geometry();

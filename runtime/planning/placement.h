@@ -44,6 +44,8 @@ public:
     bool known() const { return graph_ != nullptr; }
     /// Seconds of a substep by the costs of now; infinite while no plan is known.
     double predict(const TimingModel& timing);
+    /// The same in a row of them, as it was when the plan was found. One must be known.
+    double period() const { return period_; }
     void fill(const TimingModel& timing, FramePlan& plan);
     /// Which device does the first of a strip's tasks. [strip] A plan must be known.
     std::vector<int> homes() const;

@@ -52,6 +52,10 @@ std::optional<Division> PlannedExecutor::fixed_division() const {
     const bool all = active_.size() == devices_.size();
     if (all && options_.division) return options_.division;
     if (options_.plan != PlanKind::kAsync) return std::nullopt;
+    return division_by_units();
+}
+
+Division PlannedExecutor::division_by_units() const {
     const auto devices = active_devices();
     std::vector<double> units;
     for (const Device* device : devices) {
@@ -70,6 +74,11 @@ void PlannedExecutor::take_over(StepMaker& maker, int strip_count) {
     open();
     planner_->timing().inherit(learnt, numbers_below(active_.size()));
     planner_->balance_mixture();
+}
+
+void PlannedExecutor::take_over(StepMaker& maker, int strip_count, PlanKind plan) {
+    options_.plan = plan;
+    take_over(maker, strip_count);
 }
 
 void PlannedExecutor::go_on_without(const DeviceLost& lost, int frame) {

@@ -36,8 +36,13 @@ public:
     PlannedExecutor(StepMaker& maker, int strip_count, std::vector<std::unique_ptr<Device>> devices,
                     PlanningOptions options);
 
-    /// Goes on with other work of the same kinds; costs stay. The one before must still be there.
+    /// Goes on with other work, whose first kinds are the same; their costs stay. The one before
+    /// must still be there.
     void take_over(StepMaker& maker, int strip_count);
+    /// The same, by another kind of plan.
+    void take_over(StepMaker& maker, int strip_count, PlanKind plan);
+    /// The division that asynchronous plans have here: by units, of the first team.
+    Division division_by_units() const;
 
     /// Starts from what earlier runs have learnt. Whether all was known.
     bool restore_costs();
@@ -78,7 +83,7 @@ public:
 private:
     std::vector<Device*> active_devices() const;
     void open();
-    /// The one that was asked for, or, for asynchronous plans, by units, of the first team.
+    /// The one that was asked for, or the one that asynchronous plans have.
     std::optional<Division> fixed_division() const;
     void look_at_load(int frame);
     void note_limits(const FramePlan& plan, const RunTimes& times, double threads,

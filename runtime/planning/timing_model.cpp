@@ -51,7 +51,8 @@ void TimingModel::set_latency(int from, int to, double seconds) {
 void TimingModel::inherit(const TimingModel& other, const std::vector<int>& numbers) {
     for (std::size_t d = 0; d < numbers.size(); ++d) {
         const auto theirs = static_cast<std::uint32_t>(numbers[d]);
-        for (std::uint32_t kind = 0; kind < costs_.kinds(); ++kind) {
+        for (std::uint32_t kind = 0; kind < std::min(costs_.kinds(), other.costs_.kinds());
+             ++kind) {
             costs_.restore(kind, static_cast<std::uint32_t>(d), other.costs_.fit(kind, theirs));
         }
         for (std::size_t to = 0; to < numbers.size(); ++to) {

@@ -29,6 +29,7 @@ public:
     const Link& link(int from, int to) const { return links_[index(from, to)]; }
     /// What is known from elsewhere, and is replaced as soon as it is measured here.
     void set_latency(int from, int to, double seconds);
+    void set_link(int from, int to, const Link& link) { links_[index(from, to)] = link; }
     /// Takes over what another model knows of its devices `numbers`, in this order.
     void inherit(const TimingModel& other, const std::vector<int>& numbers);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "kernels/descent/substep.h"
@@ -19,6 +20,7 @@ namespace {
 /// values are on their way, the more of them there are.
 int slots_for(const AsyncSettings& settings) {
     constexpr int kMost = 40;
+    if (settings.tasks == AsyncSettings::Tasks::kKinds) return kMost;
     const int iterations = static_cast<int>(std::ceil(settings.wait_or_default()));
     return std::min(kMost, 4 + (settings.dropping ? 5 : 8) * iterations);
 }
@@ -162,6 +164,13 @@ bool AsyncIterates::is_asynchronous(const Task& task) const {
 
 namespace {
 
+/// In a partition by the devices' speeds, the fastest one.
+int largest_part(const Partition& partition) {
+    const auto size = [](const Part& part) { return part.end - part.begin; };
+    return static_cast<int>(std::ranges::max_element(partition.parts, {}, size) -
+                            partition.parts.begin());
+}
+
 /// Tasks that follow each other for what is not of the iterate. [task]
 std::vector<std::vector<int>> order_by_other_data(const Step& step, const Iterates& iterates) {
     Step other;
@@ -194,27 +203,79 @@ std::vector<double> planned_durations(const Step& step, std::size_t parts, int i
     return durations;
 }
 
+/// Tasks by kinds: the speeds are those that the parts were cut by, so an iteration takes the time
+/// 1 if all share in it evenly. What is synchronous is the largest part's. [task][device]
+std::vector<std::vector<double>> durations_by_device(const Step& step, const Partition& partition,
+                                                     const std::vector<bool>& is_asynchronous,
+                                                     int iterations) {
+    double items = 0.0;
+    for (const Task& task : step.tasks()) items += static_cast<double>(task.items);
+    const double unit = iterations * static_cast<double>(partition.strip_count()) / items;
+    const auto main = static_cast<std::size_t>(largest_part(partition));
+    std::vector<std::vector<double>> durations;
+    for (std::size_t t = 0; t < step.tasks().size(); ++t) {
+        const long own = std::max(step.tasks()[t].items, 1L);
+        auto& row = durations.emplace_back();
+        for (std::size_t d = 0; d < partition.parts.size(); ++d) {
+            const Part& part = partition.parts[d];
+            const bool can_run = is_asynchronous[t] || d == main;
+            row.push_back(can_run ? unit * static_cast<double>(own) / (part.end - part.begin)
+                                  : std::numeric_limits<double>::infinity());
+        }
+    }
+    return durations;
+}
+
 }  // namespace
+
+/// A cell's owner has its strips; where nobody has strips, the fastest one has it all, as the
+/// paper's main device.
+std::vector<int> AsyncIterates::owners_of(const Partition& partition, const Cells& cells) const {
+    std::vector<int> owners;
+    for (const auto& cell : cells.cells()) {
+        const int strip = cell.first_piece / Iterates::kPiecesPerStrip;
+        const auto part =
+            std::ranges::find_if(partition.parts, [&](const Part& p) { return strip < p.end; });
+        owners.push_back(by_kinds() ? largest_part(partition)
+                                    : static_cast<int>(part - partition.parts.begin()));
+    }
+    return owners;
+}
+
+/// What of its iteration a task must have seen: all before it has smaller ones.
+int AsyncIterates::stage_of(const Task& task, int number) const {
+    if (settings_.order == AsyncSettings::Order::kAcross) return number;
+    if (settings_.order == AsyncSettings::Order::kFree) return 0;
+    return std::ranges::count(solver_->asynchrony().last, task.body->kind) > 0 ? 1 : 0;
+}
+
+void AsyncIterates::place_kinds(const Step& step, const Partition& partition,
+                                scheduler::ExchangeProblem& problem) const {
+    std::vector<bool> is_asynchronous;
+    for (const auto& task : problem.tasks) is_asynchronous.push_back(!task.synchronous);
+    scheduler::place_by_rank(
+        problem,
+        durations_by_device(step, partition, is_asynchronous, model_.scene.solver.iterations),
+        settings_.rank ? scheduler::PlacingRank::kGaussSeidel : scheduler::PlacingRank::kUpward);
+}
 
 scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Partition& partition,
                                                      const Cells& cells) const {
     scheduler::ExchangeProblem problem;
     problem.devices = static_cast<int>(partition.parts.size());
     problem.window = settings_.window;
+    problem.iterations_in_turn = settings_.order == AsyncSettings::Order::kWithin;
     problem.wait = settings_.wait_or_default();
     problem.dropping = settings_.dropping;
     problem.most_slots = iterates_.place_count() - iterates_.count();
-    for (const auto& cell : cells.cells()) {
-        const int strip = cell.first_piece / Iterates::kPiecesPerStrip;
-        const auto part =
-            std::ranges::find_if(partition.parts, [&](const Part& p) { return strip < p.end; });
-        problem.owners.push_back(static_cast<int>(part - partition.parts.begin()));
-    }
+    problem.owners = owners_of(partition, cells);
     const auto after = order_by_other_data(step, iterates_);
     for (std::size_t t = 0; t < step.tasks().size(); ++t) {
         const Task& task = step.tasks()[t];
         auto& planned = problem.tasks.emplace_back();
         planned.iteration = task.iteration;
+        planned.stage = stage_of(task, static_cast<int>(t));
+        if (by_kinds()) planned.kind = task.body->kind;
         planned.device = task.region;
         planned.synchronous = !is_asynchronous(task);
         planned.after = after[t];
@@ -225,14 +286,30 @@ scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Par
             if (access.writes) planned.writes.push_back(planned.reads.back());
         }
     }
+    if (by_kinds()) {
+        place_kinds(step, partition, problem);
+        return problem;
+    }
     scheduler::plan_in_turn(
         problem, planned_durations(step, partition.parts.size(), model_.scene.solver.iterations));
     return problem;
 }
 
 scheduler::ExchangeProblem AsyncIterates::problem_of(const Partition& partition) {
-    const Step step = solver_->make_step(partition);
+    const Step step = base_step(partition);
     return problem_of(step, partition, Cells(iterates_, step, partition));
+}
+
+/// What the synchronous solver does.
+Step AsyncIterates::base_step(const Partition& partition) {
+    if (!by_kinds()) return solver_->make_step(partition);
+    if (partition.parts.size() > 2) {
+        throw UserError(
+            fmt::format("--async tasks=kinds: two devices can share kinds of tasks, here are {}; "
+                        "tasks=strips takes any number",
+                        partition.parts.size()));
+    }
+    return solver_->make_step(Partition::whole(partition.strip_count()));
 }
 
 /// Puts a map's steps into a Step.
@@ -244,7 +321,7 @@ public:
     Step build(const scheduler::ExchangeMap& map) {
         for (const scheduler::ExchangeStep& step : map.steps) {
             if (step.kind == scheduler::ExchangeStep::Kind::kTask)
-                add_task(base_.tasks()[static_cast<std::size_t>(step.task)]);
+                add_task(base_.tasks()[static_cast<std::size_t>(step.task)], step.device);
             else
                 add_exchange(step);
         }
@@ -253,13 +330,14 @@ public:
     }
 
 private:
-    void add_task(const Task& task) {
+    void add_task(const Task& task, int device) {
         const Iterates& iterates = solver_.iterates_;
         Task own = task;
-        own.body = &iterates.body_for(*task.body, task.region);
+        own.region = device;
+        own.body = &iterates.body_for(*task.body, device);
         for (Access& access : own.accesses) {
             const std::size_t buffer = iterates.index_of(access.buffer);
-            if (buffer < iterates.buffer_count()) access.buffer = &iterates.in(buffer, task.region);
+            if (buffer < iterates.buffer_count()) access.buffer = &iterates.in(buffer, device);
         }
         step_.add(own);
     }
@@ -305,8 +383,8 @@ private:
     Step step_;
 };
 
-/// Start points that no device was ever at are needed where three share a cell, and no more than
-/// two strips meet anywhere.
+/// Start points that no device was ever at are needed where three share a cell, and nowhere do
+/// more than two.
 scheduler::ExchangeMap AsyncIterates::map_of(const scheduler::ExchangeProblem& problem) const {
     try {
         auto map = scheduler::make_exchange_map(problem);
@@ -322,7 +400,7 @@ scheduler::ExchangeMap AsyncIterates::map_of(const scheduler::ExchangeProblem& p
 
 Step AsyncIterates::make_step(const Partition& partition) {
     WEFT_ASSERT(static_cast<int>(partition.parts.size()) <= iterates_.count());
-    Step base = solver_->make_step(partition);
+    Step base = base_step(partition);
     if (partition.parts.size() == 1) return base;
     const Cells cells(iterates_, base, partition);
     const auto problem = problem_of(base, partition, cells);

@@ -51,6 +51,12 @@ private:
     void add_merge(std::size_t buffer, int start, int from, int to);
     scheduler::ExchangeProblem problem_of(const Step& step, const Partition& partition,
                                           const Cells& cells) const;
+    bool by_kinds() const { return settings_.tasks == AsyncSettings::Tasks::kKinds; }
+    Step base_step(const Partition& partition);
+    std::vector<int> owners_of(const Partition& partition, const Cells& cells) const;
+    int stage_of(const Task& task, int number) const;
+    void place_kinds(const Step& step, const Partition& partition,
+                     scheduler::ExchangeProblem& problem) const;
     scheduler::ExchangeMap map_of(const scheduler::ExchangeProblem& problem) const;
     bool is_asynchronous(const Task& task) const;
 

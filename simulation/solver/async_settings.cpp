@@ -1,12 +1,15 @@
 #include "simulation/solver/async_settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "runtime/error.h"
 
@@ -15,11 +18,22 @@ namespace weft {
 namespace {
 
 using Merge = AsyncSettings::Merge;
+using Tasks = AsyncSettings::Tasks;
+using Order = AsyncSettings::Order;
 
-constexpr std::array<std::pair<const char*, Merge>, 4> kMerges{{{"auto", Merge::kAuto},
-                                                                {"sum", Merge::kSum},
-                                                                {"mean", Merge::kMean},
-                                                                {"position", Merge::kPosition}}};
+template <class Value, std::size_t N>
+using Names = std::array<std::pair<const char*, Value>, N>;
+
+constexpr Names<Merge, 4> kMerges{{{"auto", Merge::kAuto},
+                                   {"sum", Merge::kSum},
+                                   {"mean", Merge::kMean},
+                                   {"position", Merge::kPosition}}};
+constexpr Names<Tasks, 2> kTasks{{{"strips", Tasks::kStrips}, {"kinds", Tasks::kKinds}}};
+constexpr Names<Order, 4> kOrders{{{"both", Order::kBoth},
+                                   {"free", Order::kFree},
+                                   {"within", Order::kWithin},
+                                   {"across", Order::kAcross}}};
+constexpr Names<bool, 2> kSwitch{{{"on", true}, {"off", false}}};
 
 [[noreturn]] void refuse(const std::string& key, const std::string& value,
                          const std::string& expected) {
@@ -37,11 +51,21 @@ Number number_in(const std::string& key, const std::string& value, Number least,
     return number;
 }
 
-Merge merge_of(const std::string& value) {
-    for (const auto& [name, merge] : kMerges) {
-        if (value == name) return merge;
+template <class Value, std::size_t N>
+Value value_of(const Names<Value, N>& names, const std::string& key, const std::string& text) {
+    std::vector<std::string> known;
+    for (const auto& [name, value] : names) {
+        if (text == name) return value;
+        known.emplace_back(name);
     }
-    refuse("merge", value, "auto, sum, mean or position");
+    const std::string last = known.back();
+    known.pop_back();
+    refuse(key, text, fmt::format("{} or {}", fmt::join(known, ", "), last));
+}
+
+template <class Value, std::size_t N>
+std::string name_of(const Names<Value, N>& names, Value value) {
+    return std::ranges::find(names, value, &std::pair<const char*, Value>::second)->first;
 }
 
 void set(AsyncSettings& settings, const std::string& key, const std::string& value) {
@@ -50,15 +74,23 @@ void set(AsyncSettings& settings, const std::string& key, const std::string& val
     } else if (key == "wait") {
         settings.wait = number_in(key, value, 0.0, 64.0);
     } else if (key == "merge") {
-        settings.merge = merge_of(value);
+        settings.merge = value_of(kMerges, key, value);
     } else if (key == "dropping") {
-        if (value != "on" && value != "off") refuse(key, value, "on or off");
-        settings.dropping = value == "on";
+        settings.dropping = value_of(kSwitch, key, value);
+    } else if (key == "tasks") {
+        settings.tasks = value_of(kTasks, key, value);
+    } else if (key == "order") {
+        settings.order = value_of(kOrders, key, value);
+    } else if (key == "rank") {
+        settings.rank = value_of(kSwitch, key, value);
     } else if (key == "settle") {
         settings.settle = number_in(key, value, 0, 64);
     } else {
-        throw UserError(fmt::format(
-            "--async {}: there are window, wait, merge, dropping and settle, as in window=3", key));
+        throw UserError(
+            fmt::format("--async {}: there are window, wait, merge, dropping, settle, tasks, order "
+                        "and rank, as "
+                        "in window=3",
+                        key));
     }
 }
 
@@ -72,16 +104,25 @@ AsyncSettings parse_async_settings(const std::string& text) {
         set(settings, item.substr(0, equals),
             equals == std::string::npos ? "" : item.substr(equals + 1));
     }
+    if (!settings.rank && settings.tasks == Tasks::kStrips) {
+        throw UserError(
+            "--async rank=off: only tasks=kinds has a rank; strips are done in the solver's order");
+    }
     return settings;
 }
 
 std::string to_text(const AsyncSettings& settings) {
     std::string text = fmt::format("window={}", settings.window);
     if (settings.wait) text += fmt::format(",wait={}", *settings.wait);
-    for (const auto& [name, merge] : kMerges) {
-        if (settings.merge == merge) text += fmt::format(",merge={}", name);
+    text += fmt::format(",merge={},dropping={}", name_of(kMerges, settings.merge),
+                        name_of(kSwitch, settings.dropping));
+    if (settings.tasks != Tasks::kStrips) {
+        text += fmt::format(",tasks={},rank={}", name_of(kTasks, settings.tasks),
+                            name_of(kSwitch, settings.rank));
     }
-    text += settings.dropping ? ",dropping=on" : ",dropping=off";
+    if (settings.order != Order::kBoth) {
+        text += fmt::format(",order={}", name_of(kOrders, settings.order));
+    }
     if (settings.settle) text += fmt::format(",settle={}", *settings.settle);
     return text;
 }

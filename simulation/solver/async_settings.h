@@ -15,6 +15,21 @@ struct AsyncSettings {
         kMean,      ///< half of each
         kPosition,  ///< the mean of the positions, also where only one has moved
     };
+    enum class Tasks {
+        kStrips,  ///< every device does its strips
+        /// As the paper has it: a task does one kind of work, everywhere; HEFT says which device.
+        kKinds,
+    };
+    /// What may overlap; what may not sees what comes before it.
+    enum class Order {
+        kBoth,    ///< tasks of one iteration and of several, but obstacles come last in theirs
+        kFree,    ///< obstacles come when they come
+        kWithin,  ///< tasks of one iteration, but obstacles come last
+        kAcross,  ///< those of several iterations
+    };
+    Tasks tasks = Tasks::kStrips;
+    Order order = Order::kBoth;
+    bool rank = true;            ///< kKinds: later iterations come later, as the solver has them
     int window = 2;              ///< iterations that are open at a time; 1: synchronous
     std::optional<double> wait;  ///< until another device is told [iterations]; null: window - 1
     Merge merge = Merge::kAuto;

@@ -105,7 +105,7 @@ public:
 
     /// Positions and what becomes of them take turns in two buffers. Behind a check, which may take
     /// back what was done, both have to be made anew before anybody may look at older ones.
-    Asynchrony asynchrony() const override { return {{kRefresh, kStep}, 0.5f, kCheckEvery, 2}; }
+    Asynchrony asynchrony() const override { return {{kRefresh, kStep}, {}, 0.5f, kCheckEvery, 2}; }
 
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
@@ -123,7 +123,7 @@ public:
         add_check(step, regions, iterations_);
         for (const Region& region : regions) {
             if (!substep_.has_free_bodies()) break;
-            substep_.add_sum(step, momentum_, region, after(iterations_), iterations_ - 1);
+            substep_.add_sum(step, momentum_, region, after(iterations_), iterations_);
         }
         for (const Region& region : regions) add_velocities(step, region);
         substep_.add_measurements(step, regions, iterations_ - 1);
@@ -258,8 +258,9 @@ private:
         contact_->add_truncation_accesses(task, first, last);
     }
 
+    /// Behind the last check, which is of iteration number `iterations_`.
     void add_velocities(Step& step, const Region& region) {
-        auto task = substep_.add_end(step, velocities_, region, iterations_ - 1);
+        auto task = substep_.add_end(step, velocities_, region, iterations_);
         if (iterations_ % 2 == 0) return;
         const auto [first, last] = substep_.vertices(region.begin, region.end);
         task.reads(other_, first, last).updates(*model_.positions, first, last);

@@ -58,4 +58,14 @@ std::unique_ptr<Solver> make_solver(Model& model) {
     throw std::logic_error("a method without a solver");
 }
 
+std::unique_ptr<Solver> make_solver_by_kinds(Model& model) {
+    refuse_contact(model.scene);
+    const Method method = model.scene.solver.method;
+    if (method == Method::kXpbd) return make_xpbd_solver(model, XpbdTasks::kByFamily);
+    throw UserError(
+        fmt::format("--async tasks=kinds: only xpbd has tasks by kinds; {} has colours of vertices "
+                    "that depend on each other within a strip",
+                    name_of(method)));
+}
+
 }  // namespace weft

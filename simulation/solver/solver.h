@@ -31,6 +31,7 @@ public:
     /// What may be done asynchronously, by parts that do not wait for each other.
     struct Asynchrony {
         std::vector<int> kinds;  ///< of tasks; none: this solver has no asynchronous form
+        std::vector<int> last;   ///< those of them that end an iteration, where they are apart
         /// Of each of two motions that meet. A solver that remembers how far it has moved needs 1.
         float weight = 0.5f;
         /// Of so many iterations each, the first ones stay in step.
@@ -42,5 +43,9 @@ public:
 
 /// The solver that the model's scene names.
 std::unique_ptr<Solver> make_solver(Model& model);
+
+/// The same, with a task for each kind of work in an iteration (XPBD: each family of elements, and
+/// obstacles) where they can be told apart. Throws UserError where they cannot.
+std::unique_ptr<Solver> make_solver_by_kinds(Model& model);
 
 }  // namespace weft

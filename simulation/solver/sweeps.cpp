@@ -64,7 +64,7 @@ std::vector<Buffer<float4>*> SweepSolver::iterate() {
     return {model_.positions.get(), &substep_.targets()};
 }
 
-Solver::Asynchrony SweepSolver::asynchrony() const { return {{kSeams, kStrips}}; }
+Solver::Asynchrony SweepSolver::asynchrony() const { return {{kSeams, kStrips}, {}}; }
 
 Step SweepSolver::make_step(const Partition& partition) {
     const auto regions = regions_of(partition);

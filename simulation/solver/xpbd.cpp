@@ -8,47 +8,49 @@ namespace weft {
 
 namespace {
 
-enum Kind { kPredict, kSeams, kStrips, kVelocities, kPush, kContact };
-
 /// The multipliers of one family: a buffer per constraint.
 using Multipliers = std::vector<std::unique_ptr<Buffer<float>>>;
 
+/// What is projected by tasks of its own, and by which.
+struct Group {
+    std::vector<std::size_t> families;
+    TaskBody seams[2], strips[2];  ///< [fresh]
+};
+
 class XpbdSolver final : public Solver {
 public:
-    explicit XpbdSolver(Model& model)
-        : model_(model), contact_(ContactResponse::of(model, kContact)) {
-        if (contact_) projection_ = std::make_unique<ContactProjection>(model, *contact_);
+    XpbdSolver(Model& model, XpbdTasks tasks)
+        : model_(model), contact_(ContactResponse::of(model, /*first_kind=*/0)) {
+        if (contact_) {
+            kinds_ = contact_->kinds();
+            projection_ = std::make_unique<ContactProjection>(model, *contact_);
+        }
         for (const auto& family : model.families) add_multipliers(*family);
         make_predict();
-        for (const int fresh : {0, 1}) {
-            seams_[fresh] = {"seams", kSeams, project(kSeamPhase, fresh)};
-            strips_[fresh] = {"strips", kStrips, project(kInnerPhase, fresh)};
-            auto& launches = strips_[fresh].launches;
-            if (contact_)
-                projection_->add_snapshot(launches);
-            else
-                add_obstacles(launches);
-        }
+        if (tasks == XpbdTasks::kWhole)
+            add_all_in_one();
+        else
+            add_one_by_one();
         if (contact_) make_push();
         make_velocities();
     }
 
     std::vector<const TaskBody*> bodies() const override {
-        std::vector<const TaskBody*> list{&predict_,  &seams_[1],  &strips_[1],
-                                          &seams_[0], &strips_[0], &velocities_};
+        std::vector<const TaskBody*> list{&predict_};
+        for (const Group& group : groups_) {
+            for (const int fresh : {1, 0}) {
+                if (!group.families.empty()) list.push_back(&group.seams[fresh]);
+                list.push_back(&group.strips[fresh]);
+            }
+        }
+        list.push_back(&velocities_);
         if (!contact_) return list;
         list.push_back(&push_);
         for (const TaskBody* body : contact_->bodies()) list.push_back(body);
         return list;
     }
 
-    std::vector<std::string> kinds() const override {
-        std::vector<std::string> names{"predict", "seams", "strips", "velocities"};
-        if (!contact_) return names;
-        names.push_back(push_.name);
-        for (std::string& kind : contact_->kinds()) names.push_back(std::move(kind));
-        return names;
-    }
+    std::vector<std::string> kinds() const override { return kinds_; }
 
     std::vector<RowTable*> tables() override {
         return contact_ ? contact_->tables() : std::vector<RowTable*>{};
@@ -59,7 +61,15 @@ public:
 
     /// The multipliers count every motion in full, so it must not be lost: where half of it is,
     /// they and the positions do not belong together any more, and iterations end elsewhere.
-    Asynchrony asynchrony() const override { return {{kSeams, kStrips}, 1.0f}; }
+    Asynchrony asynchrony() const override {
+        Asynchrony asynchrony{{}, {}, 1.0f};
+        for (const Group& group : groups_) {
+            if (!group.families.empty()) asynchrony.kinds.push_back(group.seams[0].kind);
+            asynchrony.kinds.push_back(group.strips[0].kind);
+            if (group.families.empty()) asynchrony.last.push_back(group.strips[0].kind);
+        }
+        return asynchrony;
+    }
 
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
@@ -76,8 +86,59 @@ public:
     }
 
 private:
+    TaskBody new_kind(const std::string& name) {
+        kinds_.push_back(name);
+        return {name, static_cast<int>(kinds_.size()) - 1, {}};
+    }
+
+    void add_all_in_one() {
+        Group& group = groups_.emplace_back();
+        for (std::size_t f = 0; f < multipliers_.size(); ++f) group.families.push_back(f);
+        fill(group, "seams", "strips");
+        for (TaskBody& body : group.strips) {
+            if (contact_)
+                projection_->add_snapshot(body.launches);
+            else
+                add_obstacles(body);
+        }
+    }
+
+    void add_one_by_one() {
+        for (std::size_t f = 0; f < multipliers_.size(); ++f) {
+            Group& group = groups_.emplace_back(Group{{f}, {}, {}});
+            const std::string name = model_.families[f]->names().name;
+            fill(group, name + "-seams", name);
+        }
+        if (!model_.obstacles) return;
+        Group& group = groups_.emplace_back();
+        group.strips[0] = group.strips[1] = new_kind("obstacles");
+        for (TaskBody& body : group.strips) add_obstacles(body);
+    }
+
+    void fill(Group& group, const std::string& seams, const std::string& strips) {
+        group.seams[0] = group.seams[1] = new_kind(seams);
+        group.strips[0] = group.strips[1] = new_kind(strips);
+        for (const int fresh : {0, 1}) {
+            group.seams[fresh].launches = project(group, kSeamPhase, fresh);
+            group.strips[fresh].launches = project(group, kInnerPhase, fresh);
+        }
+    }
+
+    void add_obstacles(TaskBody& body) {
+        if (!model_.obstacles) return;
+        model_.obstacles->add_launches(body.launches, model_.vertices(), *model_.positions,
+                                       *model_.previous);
+    }
+
+    void make_push() {
+        push_ = new_kind("push");
+        push_.launches.push_back(projection_->project());
+        add_obstacles(push_);
+        contact_->add_truncation(push_.launches, *model_.positions);
+    }
+
     void make_predict() {
-        predict_ = {"predict", kPredict, {}};
+        predict_ = new_kind("predict");
         predict_.launches.push_back(launch(kernels::predict, model_.vertices(), *model_.positions,
                                            *model_.previous, *model_.velocities, *model_.gravity,
                                            static_cast<float>(model_.h), kInstance));
@@ -87,20 +148,8 @@ private:
         if (contact_) contact_->add_begin(predict_.launches, *model_.positions);
     }
 
-    void add_obstacles(std::vector<Launch>& launches) {
-        if (!model_.obstacles) return;
-        model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
-                                       *model_.previous);
-    }
-
-    void make_push() {
-        push_ = {"push", kPush, {projection_->project()}};
-        add_obstacles(push_.launches);
-        contact_->add_truncation(push_.launches, *model_.positions);
-    }
-
     void make_velocities() {
-        velocities_ = {"velocities", kVelocities, {}};
+        velocities_ = new_kind("velocities");
         const auto update = [&](auto kernel) {
             velocities_.launches.push_back(launch(kernel, model_.vertices(), *model_.positions,
                                                   *model_.previous, *model_.velocities,
@@ -124,10 +173,10 @@ private:
     }
 
     /// One launch per family.
-    std::vector<Launch> project(Phase phase, int fresh) {
+    std::vector<Launch> project(const Group& group, Phase phase, int fresh) {
         const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
         std::vector<Launch> launches;
-        for (std::size_t f = 0; f < multipliers_.size(); ++f) {
+        for (const std::size_t f : group.families) {
             launches.push_back(model_.families[f]->project(
                 {phase, *model_.positions, multipliers_[f], inverse_h2, fresh}));
         }
@@ -164,33 +213,43 @@ private:
         for (const Region& region : regions) {
             for_each_part(
                 region,
-                [&](int begin, int end) { add_seams(step, iteration, begin, end, region.id); },
-                [&](int begin, int end) { add_strips(step, iteration, begin, end, region.id); });
+                [&](int begin, int end) {
+                    for (const Group& g : groups_)
+                        add_seams(step, g, iteration, begin, end, region.id);
+                },
+                [&](int begin, int end) {
+                    for (const Group& g : groups_)
+                        add_strips(step, g, iteration, begin, end, region.id);
+                });
         }
         for (const Region& region : regions) {
             if (contact_) add_push(step, iteration, region);
         }
     }
 
-    void add_seams(Step& step, int iteration, int begin, int end, int id) {
-        const TaskBody& body = seams_[iteration == 0];
+    void add_seams(Step& step, const Group& group, int iteration, int begin, int end, int id) {
+        if (group.families.empty()) return;
+        const TaskBody& body = group.seams[iteration == 0];
         const auto first = static_cast<std::size_t>(begin);
         const auto last = static_cast<std::size_t>(end - 1);
         auto task = step.add(body, iteration, begin, end, id);
         task.updates(*model_.positions, model_.strips.seam_begin[first],
                      model_.strips.seam_end[last]);
-        update_multipliers(task, body);
+        update_multipliers(task, group, body);
     }
 
-    void add_strips(Step& step, int iteration, int begin, int end, int id) {
-        const TaskBody& body = strips_[iteration == 0];
+    void add_strips(Step& step, const Group& group, int iteration, int begin, int end, int id) {
+        const TaskBody& body = group.strips[iteration == 0];
         auto task = step.add(body, iteration, begin, end, id);
         task.updates(*model_.positions, first_vertex(begin), first_vertex(end));
-        update_multipliers(task, body);
+        update_multipliers(task, group, body);
         if (contact_) {
             projection_->add_snapshot_accesses(task, iteration, first_vertex(begin),
                                                first_vertex(end));
-        } else if (model_.obstacles) {
+            return;
+        }
+        const bool has_obstacles = body.launches.size() > group.families.size();
+        if (has_obstacles) {
             task.reads(*model_.previous, first_vertex(begin), first_vertex(end));
         }
     }
@@ -204,27 +263,28 @@ private:
         if (model_.obstacles) task.reads(*model_.previous, begin, end);
     }
 
-    void update_multipliers(Step::Adding& task, const TaskBody& body) {
-        for (std::size_t f = 0; f < multipliers_.size(); ++f) {
-            for (const auto& buffer : multipliers_[f]) {
-                task.updates(*buffer, body.launches[f].segments);
+    void update_multipliers(Step::Adding& task, const Group& group, const TaskBody& body) {
+        for (std::size_t g = 0; g < group.families.size(); ++g) {
+            for (const auto& buffer : multipliers_[group.families[g]]) {
+                task.updates(*buffer, body.launches[g].segments);
             }
         }
     }
 
     Model& model_;
-    std::vector<Multipliers> multipliers_;           ///< [families] as the model's
+    std::vector<Multipliers> multipliers_;  ///< [families] as the model's
+    std::vector<std::string> kinds_;
     std::unique_ptr<ContactResponse> contact_;       ///< null: none
     std::unique_ptr<ContactProjection> projection_;  ///< likewise
     TaskBody predict_, velocities_;
-    TaskBody push_;                  ///< empty: no contact
-    TaskBody seams_[2], strips_[2];  ///< [fresh]
+    TaskBody push_;  ///< empty: no contact
+    std::vector<Group> groups_;  ///< in the order in which they are projected
 };
 
 }  // namespace
 
-std::unique_ptr<Solver> make_xpbd_solver(Model& model) {
-    return std::make_unique<XpbdSolver>(model);
+std::unique_ptr<Solver> make_xpbd_solver(Model& model, XpbdTasks tasks) {
+    return std::make_unique<XpbdSolver>(model, tasks);
 }
 
 }  // namespace weft

@@ -11,6 +11,10 @@ namespace weft {
 ///   strips: all elements inside a strip likewise, then obstacles, so that an iteration ends
 ///           without penetration
 /// then velocities. This order is the same for every number of devices: it defines the result.
-std::unique_ptr<Solver> make_xpbd_solver(Model& model);
+enum class XpbdTasks {
+    kWhole,     ///< a task does all families
+    kByFamily,  ///< one, or the obstacles; the result is the same
+};
+std::unique_ptr<Solver> make_xpbd_solver(Model& model, XpbdTasks tasks = XpbdTasks::kWhole);
 
 }  // namespace weft

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as xml
 
 import h5py
 import pytest
+from recorded import two_devices
 from weft_program import SCENES, SHEET, expect_error, weft, weft_json
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -222,7 +223,51 @@ def test_picture_shows_every_point(folder):
         assert 2 * size <= pixels < 2 * size + 2
 
 
+def test_plans_beside_each_other(folder):
+    """Exact, asynchronous with two settings, and single on one picture, in time and in iterations."""
+    plans = ["exact", "async", "async:window=3+dropping=on", "single"]
+    (folder / "scene.toml").write_text(HANGING.replace("[12, 12]", "[12, 60]"))
+    result = weft("error", "scene.toml", "--out", "out", "--solvers", "vbd", "--devices",
+                  two_devices()[1], "--plans", ",".join(plans), "--max-iterations", "40", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    curves = {key[2]: value for key, value in read_curves(folder / "out" / "error.csv").items()}
+    assert list(curves) == plans
+    energies = {plan: [row["energy"] for row in curve] for plan, curve in curves.items()}
+    assert energies["exact"] == energies["single"]
+    assert energies["async"] != energies["exact"]
+    assert energies["async"] != energies["async:window=3+dropping=on"]
+    picture = xml.parse(folder / "out" / "error.svg").getroot()
+    said = [text.text for text in picture.iter(f"{SVG}text")]
+    assert "run time of the step [s]" in said and "iterations" in said
+    assert {f"vbd, {plan}" for plan in plans} <= set(said)
+    # Every point has a mark in either plot, of which the one in time says what it is.
+    points = sum(len(curve) - 1 for curve in curves.values())
+    marks = [mark for mark in picture.iter(f"{SVG}rect") if float(mark.get("width")) <= 5.0]
+    assert len(marks) == 2 * points + len(plans)  # those of the legend
+
+
+def test_obstacles_in_the_step(folder):
+    """Errors are distances: they vanish, and nobody is asked for a minimum."""
+    (folder / "scene.toml").write_text(HANGING + """
+[[obstacle]]
+shape = "sphere"
+center = [0.0, 0.75, 0.0]
+radius = 0.2
+""")
+    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers",
+                      "xpbd", "--frame", "4", "--obstacles", "--max-iterations", "100", cwd=folder)
+    assert any("obstacles are in the step" in note for note in study["notes"])
+    assert study["reference_energy"] == 0.0
+    (curve,) = read_curves(folder / "out" / "error.csv").values()
+    errors = [float(row["relative_error"]) for row in curve]
+    assert errors[0] == 1.0 and 0.0 <= errors[-1] < 0.1
+    assert all(row["relative_error_estimate"] == "" for row in curve)
+
+
 @pytest.mark.parametrize("arguments, parts", [
+    (["--plans", "async:window=0"], ["--async window=0"]),
+    (["--plans", "exact:window=2"], ["--plans exact:window=2", "only async"]),
+    (["--plans", "async:tasks=kinds", "--solvers", "vbd"], ["tasks=kinds", "xpbd"]),
     (["--frame", "6"], ["--frame 6", "frames 0 to 5"]),
     (["--frame", "-1"], ["--frame -1"]),
     (["--solvers", "xpdb"], ["xpdb", "xpbd"]),

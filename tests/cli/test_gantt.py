@@ -9,7 +9,7 @@ import zlib
 import h5py
 import pytest
 from recorded import divided, expect_unreadable_traces_refused, made_up, old, record
-from recorded import record_killed
+from recorded import record_killed, two_devices
 from weft_program import expect_error, weft
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -105,6 +105,33 @@ def test_mixture(tmp_path, more):
     assert {"0 tbb/1", "1 opencl/1", "predict", "seams", "strips", "velocities"} <= set(said)
 
 
+@pytest.mark.parametrize("solver", ["xpbd", "vbd", "sosd", "jpgd"])
+def test_two_iterations_of_an_asynchronous_run(tmp_path, solver):
+    """As the paper's figures 10 to 13: what both devices do in two iterations, and the exchanges."""
+    trace = record(tmp_path, *two_devices()[:2], "--plan", "async", "--solver", solver,
+                   "--iterations", "12")
+    whole = draw(trace, tmp_path)
+    picture = draw(trace, tmp_path, "--iterations", "4:5")
+    assert inside(picture)
+    names = [name for name, _, _, _ in bars(picture)]
+    assert names and all(name.split()[1].split(".")[1] in "45" for name in names)
+    shown = {name for name, _, _, _ in bars(whole) if name.split()[1].split(".")[1] in ("4", "5")}
+    assert set(names) == shown
+    assert len({y for _, _, y, _ in bars(picture)}) == 4  # two devices in each panel
+    assert any("exchange" in name for name in names)
+    heads = arrows(picture)
+    assert heads["#00823c"] > 1 and heads["#c81e1e"] > 1  # to either device; one is the legend's
+    assert min(x for _, x, _, _ in bars(picture)) == pytest.approx(130.0)  # time begins with them
+    assert "sheet: frame 7, substep 0, iterations 4 to 5" in texts(picture)
+
+
+def test_iterations_are_read_as_frames_are(tmp_path):
+    trace = made_up(tmp_path)
+    one = draw(trace, tmp_path, "--iterations", "1")
+    assert [t for t in texts(one) if t.endswith("iteration 1")]
+    assert len(bars(draw(trace, tmp_path, "--iterations", "0:"))) == len(bars(draw(trace, tmp_path)))
+
+
 def test_one_device_has_no_arrows(tmp_path):
     picture = draw(record(tmp_path, "--device", "cpu/1"), tmp_path)
     assert inside(picture) and bars(picture) and not arrows(picture)
@@ -181,6 +208,8 @@ def test_bad_traces(tmp_path):
     (["--substep", "4"], "made_up.h5: frame 5 has no substep 4; it has 0 to 3"),
     (["--substep", "-1"], "--substep"),
     (["--frame", "x"], "--frame"),
+    (["--iterations", "2-3"], "--iterations 2-3: expected A:B, the first and the last iteration"),
+    (["--iterations", "3:99"], "made_up.h5: frame 5 has no iteration 99"),
     (["--out", "picture.jpg"], "--out picture.jpg: expected a name that ends in .svg or .png"),
     (["--out", "none/picture.svg"], "none/picture.svg: cannot write: No such file"),
 ])

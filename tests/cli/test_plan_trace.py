@@ -1,6 +1,8 @@
 """`weft plan TRACE.h5`: a recorded frame planned again, as it was and on other machines."""
 
+import csv
 import json
+import xml.etree.ElementTree as xml
 
 import h5py
 import pytest
@@ -217,3 +219,61 @@ def test_more_bad_costs(tmp_path):
     expect_error(weft("plan", trace, "--costs", "costs.json", cwd=tmp_path), 2,
                  "costs.json:1:2: not JSON")
     expect_error(weft("plan", trace, "--costs", "none.json", cwd=tmp_path), 2, "none.json: No such")
+
+
+def machines(trace, folder, *more):
+    study = weft_json("plan", trace, "--frame", 4, "--machines", "--out", folder, "--device-counts",
+                      "2,3", "--waits", "1e-6,1e-4,1e-3", "--ratios", "1,8", *more)
+    return study, {(r["faster_at"], r["devices"], r["ratio"], r["wait_s"]): r for r in study["rows"]}
+
+
+def test_machines_that_are_not_there(single, tmp_path):
+    study, rows = machines(single, tmp_path / "map")
+    assert len(rows) == 2 * 2 * 2 * 3
+    for (faster, devices, ratio, wait), row in rows.items():
+        times = [row[f"{plan}_s"] for plan in ("single", "exact", "placed", "async")]
+        best = min(time for time in times if time is not None)
+        assert row[row["winner"] + "_s"] <= 1.01 * best
+        assert row["async_more_iterations"] > 0.5 and row["async_window"] in (2, 3, 5)
+        # One device does not wait for anybody, and is the faster one.
+        assert row["single_s"] == rows[faster, 2, ratio, 1e-6]["single_s"]
+        assert row["single_s"] <= rows[faster, devices, 1.0, wait]["single_s"] * (1 + 1e-9)
+        # Longer waits never help.
+        if wait > 1e-6:
+            assert row["exact_s"] >= rows[faster, devices, ratio, 1e-6]["exact_s"] * (1 - 1e-9)
+    # Two alike that need not wait share the work; waits of a millisecond leave it to one.
+    assert rows["everything", 2, 1.0, 1e-6]["exact_s"] < 0.8 * rows["everything", 2, 1.0, 1e-6]["single_s"]
+    assert rows["everything", 2, 1.0, 1e-3]["exact_s"] > rows["everything", 2, 1.0, 1e-3]["single_s"]
+    assert study["fast_kind"] in ("seams", "strips")
+
+
+def test_the_map_as_table_and_picture(single, tmp_path):
+    result = weft("plan", single, "--frame", 4, "--machines", "--out", tmp_path, "--device-counts",
+                  "2", "--waits", "1e-5,1e-4", "--ratios", "1,4,16")
+    assert result.returncode == 0, result.stderr
+    assert "wait [us]" in result.stdout and "machines.csv, machines.svg" in result.stdout
+    with open(tmp_path / "machines.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 2 * 3 * 2
+    picture = xml.parse(tmp_path / "machines.svg").getroot()
+    notes = [title.text for title in picture.iter("{http://www.w3.org/2000/svg}title")]
+    assert len(notes) == len(rows)
+    letters = [line.split()[2:] for line in result.stdout.splitlines() if " x " in line]
+    assert sum(map(len, letters)) == len(rows)
+    assert [row["winner"][0].upper() for row in rows] == [c for line in letters for c in line]
+
+
+@pytest.mark.parametrize("arguments, part", [
+    (["--machines", "--waits", "-1"], "--waits"),
+    (["--machines", "--device-counts", "1"], "--device-counts"),
+    (["--machines", "--ratios", "0.5"], "--ratios"),
+    (["--machines", "--pinned"], "--pinned"),
+    (["--waits", "1e-6"], "--machines"),
+])
+def test_machines_that_cannot_be(single, arguments, part):
+    expect_error(weft("plan", single, *arguments), 2, part)
+
+
+def test_machines_need_a_trace(tmp_path):
+    (tmp_path / "graph.json").write_text('{"processors": ["a"], "tasks": [{"name": "t", "cost": [1]}]}')
+    expect_error(weft("plan", "graph.json", "--machines", cwd=tmp_path), 2, "--machines", "traces")

@@ -6,6 +6,7 @@ import signal
 import h5py
 import numpy
 import pytest
+from recorded import two_devices
 from weft_program import SHEET, expect_error, start_weft, wait_for_frames, weft
 
 FRAMES = 40
@@ -149,3 +150,19 @@ def test_damaged_checkpoint(folder):
     checkpoint = folder / "out/sheet/checkpoint"
     checkpoint.write_bytes(checkpoint.read_bytes()[:-10])
     expect_error(run(folder, "--resume"), 2, "checkpoint", "cannot be read", "--force")
+
+
+def test_asynchronous_run_goes_on_by_the_same_map_only(folder):
+    """Other settings or cuts would give other results from there on."""
+    (folder / "scene.toml").write_text(SCENE.replace("[12, 12]", "[12, 60]"))
+    devices = ["--device", two_devices()[1], "--plan", "async"]
+    process = start_weft("run", "scene.toml", *devices, "--checkpoint", "0", cwd=folder)
+    wait_for_frames(folder / "out/sheet/trace.h5", 3, process)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=30)
+    for other in [["--plan", "async", "--async", "window=3"], ["--plan", "exact"]]:
+        result = weft("run", "scene.toml", *devices[:2], *other, "--resume", "--quiet", cwd=folder)
+        expect_error(result, 2, "out/sheet", "made from another scene, mesh, setting")
+    assert weft("run", "scene.toml", *devices, "--resume", "--quiet", cwd=folder).returncode == 0
+    assert weft("run", "scene.toml", *devices, "--out", "out/whole", "--quiet", cwd=folder).returncode == 0
+    assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]

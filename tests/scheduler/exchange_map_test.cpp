@@ -135,6 +135,116 @@ TEST(ExchangeMap, TwoDevicesNeedNoStartsThatTheyWereNeverAt) {
     }
 }
 
+/// An iteration as the paper's: a long task (stretching), a shorter one (bending), and one that
+/// must come last (obstacles); all of them touch everything.
+ExchangeProblem kinds(int iterations) {
+    ExchangeProblem problem;
+    problem.devices = 2;
+    problem.owners = {1};
+    problem.dropping = false;
+    problem.wait = 0.05;
+    problem.most_slots = 64;
+    for (int i = 0; i < iterations; ++i) {
+        for (int kind = 0; kind < 3; ++kind) {
+            ExchangeTask task;
+            task.iteration = i;
+            task.kind = kind;
+            task.stage = kind == 2 ? 1 : 0;
+            task.reads = task.writes = {{0, 1}};
+            problem.tasks.push_back(task);
+        }
+    }
+    return problem;
+}
+
+std::vector<std::vector<double>> durations_of_kinds(const ExchangeProblem& problem) {
+    const std::vector<std::vector<double>> of_kind{{1.0, 0.5}, {0.8, 0.4}, {0.4, 0.2}};
+    std::vector<std::vector<double>> durations;
+    for (const ExchangeTask& task : problem.tasks) {
+        durations.push_back(of_kind[static_cast<std::size_t>(task.kind)]);
+    }
+    return durations;
+}
+
+class Placed : public testing::TestWithParam<PlacingRank> {};
+
+TEST_P(Placed, MapsOfPlacedTasksHold) {
+    for (const int window : {1, 2, 3}) {
+        for (const bool in_turn : {false, true}) {
+            auto problem = kinds(8);
+            problem.window = window;
+            problem.iterations_in_turn = in_turn;
+            place_by_rank(problem, durations_of_kinds(problem), GetParam());
+            EXPECT_EQ(find_fault(problem, make_exchange_map(problem)), "");
+        }
+    }
+}
+
+/// The window, the stages, and that the tasks of a kind follow each other, also on one device.
+TEST_P(Placed, NothingStartsBeforeWhatItMustSee) {
+    auto problem = kinds(8);
+    place_by_rank(problem, durations_of_kinds(problem), GetParam());
+    int overlaps = 0;
+    for (const ExchangeTask& later : problem.tasks) {
+        for (const ExchangeTask& earlier : problem.tasks) {
+            if (earlier.iteration > later.iteration || &earlier == &later) continue;
+            const bool is_same_iteration = earlier.iteration == later.iteration;
+            const bool must = (earlier.kind == later.kind && !is_same_iteration) ||
+                              (is_same_iteration && earlier.stage < later.stage) ||
+                              earlier.iteration <= later.iteration - 2;
+            const double wait = earlier.device == later.device ? 0.0 : problem.wait;
+            if (must) {
+                EXPECT_GE(later.start, earlier.end + wait - 1e-12);
+            } else if (!is_same_iteration && later.start < earlier.end) {
+                ++overlaps;
+            }
+        }
+    }
+    EXPECT_GT(overlaps, 0);
+}
+
+TEST_P(Placed, IterationsInTurnDoNotOverlap) {
+    auto problem = kinds(8);
+    problem.iterations_in_turn = true;
+    place_by_rank(problem, durations_of_kinds(problem), GetParam());
+    for (const ExchangeTask& later : problem.tasks) {
+        for (const ExchangeTask& earlier : problem.tasks) {
+            if (earlier.iteration >= later.iteration) continue;
+            EXPECT_GE(later.start, earlier.end - 1e-12);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Placed,
+                         testing::Values(PlacingRank::kUpward, PlacingRank::kGaussSeidel),
+                         [](const auto& tested) {
+                             return tested.param == PlacingRank::kUpward ? "UpwardRank"
+                                                                         : "GaussSeidelRank";
+                         });
+
+/// Starts of tasks that are before one of an earlier iteration.
+int inversions(const ExchangeProblem& problem) {
+    int count = 0;
+    for (const ExchangeTask& a : problem.tasks) {
+        for (const ExchangeTask& b : problem.tasks) {
+            if (a.iteration < b.iteration && a.start > b.start) ++count;
+        }
+    }
+    return count;
+}
+
+/// Figure 9: without the rank, tasks that nothing waits for (obstacles) are put off behind those of
+/// the next iterations.
+TEST(PlacingRanks, TheGaussSeidelRankKeepsIterationsTogether) {
+    auto problem = kinds(12);
+    problem.window = 4;
+    place_by_rank(problem, durations_of_kinds(problem), PlacingRank::kUpward);
+    const int without = inversions(problem);
+    place_by_rank(problem, durations_of_kinds(problem), PlacingRank::kGaussSeidel);
+    const int with = inversions(problem);
+    EXPECT_LT(2 * with, without);
+}
+
 TEST(ExchangeMap, TooFewSlotsAreRefused) {
     auto problem = families(3, 6);
     problem.most_slots = 1;

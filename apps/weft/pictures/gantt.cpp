@@ -67,15 +67,21 @@ double tick_step(double length) {
 
 }  // namespace
 
-Gantt::Gantt(const RunDescription& run, const FrameRecord& frame, std::uint32_t substep)
-    : run_(run), frame_(frame), substep_(substep), tasks_(tasks_in_order(run, frame)) {
+Gantt::Gantt(const RunDescription& run, const FrameRecord& frame, const GanttPart& part)
+    : run_(run), frame_(frame), part_(part), tasks_(tasks_in_order(run, frame)) {
     const std::uint32_t count = substeps_of(frame);
-    if (substep >= count) {
+    if (part.substep >= count) {
         throw UserError(fmt::format("frame {} has no substep {}; it has 0 to {}", frame.frame,
-                                    substep, static_cast<long>(count) - 1));
+                                    part.substep, static_cast<long>(count) - 1));
+    }
+    std::uint32_t last = 0;
+    for (const PlanRecord& task : tasks_) last = std::max(last, task.iteration);
+    if (part.iterations && part.iterations->second > last) {
+        throw UserError(fmt::format("frame {} has no iteration {}; it has 0 to {}", frame.frame,
+                                    part.iterations->second, last));
     }
     find_planned();
-    find_measured(substep);
+    find_measured();
     end_ = std::max({planned_.end, measured_.end, 1e-9});
     const double panel_height =
         kPanelTitle + kRow * static_cast<double>(run.devices.size()) + kAxisHeight;
@@ -83,39 +89,70 @@ Gantt::Gantt(const RunDescription& run, const FrameRecord& frame, std::uint32_t 
     measured_.top = kTitleHeight + panel_height;
 }
 
+bool Gantt::shows(const PlanRecord& task) const {
+    if (!part_.iterations) return true;
+    return part_.iterations->first <= task.iteration && task.iteration <= part_.iterations->second;
+}
+
+/// Its first bar does; what lies before it is not drawn.
+void Gantt::start_at_zero(Panel& panel) const {
+    double begin = std::numeric_limits<double>::infinity();
+    for (const Bar& bar : panel.bars) {
+        if (bar.task != nullptr) begin = std::min(begin, bar.start);
+    }
+    if (!std::isfinite(begin)) return;
+    for (Bar& bar : panel.bars) {
+        bar.start -= begin;
+        bar.end -= begin;
+        if (bar.task != nullptr) panel.end = std::max(panel.end, bar.end);
+    }
+    for (Copy& copy : panel.copies) {
+        copy.start -= begin;
+        copy.end -= begin;
+    }
+    if (!part_.iterations) return;
+    std::erase_if(panel.copies, [&](const Copy& c) { return c.start < 0.0 || c.end > panel.end; });
+}
+
 void Gantt::find_planned() {
     for (const PlanRecord& task : tasks_) {
-        planned_.bars.push_back(
-            {&task, task.device, frame_.pace * task.start, frame_.pace * task.end});
-        planned_.end = std::max(planned_.end, planned_.bars.back().end);
+        planned_.bars.push_back({shows(task) ? &task : nullptr, task.device,
+                                 frame_.pace * task.start, frame_.pace * task.end});
     }
+    start_at_zero(planned_);
     planned_.title = "planned: " + milliseconds(planned_.end);
 }
 
-void Gantt::find_measured(std::uint32_t substep) {
-    double begin = std::numeric_limits<double>::infinity();
+void Gantt::find_measured() {
+    measured_.bars.resize(tasks_.size());
     for (const ExecutionRecord& e : frame_.executions) {
-        if (e.substep != substep) continue;
+        if (e.substep != part_.substep) continue;
         if (e.task >= tasks_.size() || e.device >= run_.devices.size()) {
             throw UserError(fmt::format("frame {}: its executions are damaged", frame_.frame));
         }
-        begin = std::min(begin, e.start);
-    }
-    measured_.bars.resize(tasks_.size());
-    for (const ExecutionRecord& e : frame_.executions) {
-        if (e.substep != substep) continue;
-        measured_.bars[e.task] = {&tasks_[e.task], e.device, e.start - begin, e.end - begin};
-        measured_.end = std::max(measured_.end, e.end - begin);
+        const PlanRecord& task = tasks_[e.task];
+        if (shows(task)) measured_.bars[e.task] = {&task, e.device, e.start, e.end};
     }
     for (const TransferRecord& t : frame_.transfers) {
-        if (t.substep != substep || t.from >= run_.devices.size() || t.to >= run_.devices.size()) {
+        if (t.substep != part_.substep || t.from >= run_.devices.size() ||
+            t.to >= run_.devices.size()) {
             continue;
         }
-        measured_.copies.push_back({&t, t.start - begin, t.end - begin});
+        measured_.copies.push_back({&t, t.start, t.end});
     }
+    start_at_zero(measured_);
     measured_.title = fmt::format(
         "measured: {} from the first start to the last end; {} per substep",
         milliseconds(measured_.end), milliseconds(frame_.measured_makespan / substeps_of(frame_)));
+}
+
+std::string Gantt::title() const {
+    std::string text =
+        fmt::format("{}: frame {}, substep {}", run_.scene_name, frame_.frame, part_.substep);
+    if (!part_.iterations) return text;
+    const auto [first, last] = *part_.iterations;
+    if (first == last) return text + fmt::format(", iteration {}", first);
+    return text + fmt::format(", iterations {} to {}", first, last);
 }
 
 double Gantt::width() const { return kWidth; }
@@ -131,9 +168,7 @@ double Gantt::row_top(const Panel& panel, std::uint32_t device) const {
 }
 
 void Gantt::draw(Canvas& canvas) const {
-    canvas.text({0.5 * kWidth, 24.0},
-                fmt::format("{}: frame {}, substep {}", run_.scene_name, frame_.frame, substep_),
-                16.0, Anchor::kMiddle, kBlack);
+    canvas.text({0.5 * kWidth, 24.0}, title(), 16.0, Anchor::kMiddle, kBlack);
     for (const Panel* panel : {&planned_, &measured_}) {
         draw_axis(canvas, *panel);
         draw_devices(canvas, *panel);
@@ -240,7 +275,9 @@ void Gantt::draw_legend(Canvas& canvas) const {
         x += kLetter * kFont * static_cast<double>(text.size()) + 22.0;
     };
     std::vector<bool> used(run_.kinds.size(), false);
-    for (const PlanRecord& task : tasks_) used[task.kind] = true;
+    for (const PlanRecord& task : tasks_) {
+        if (shows(task)) used[task.kind] = true;
+    }
     for (std::size_t kind = 0; kind < used.size(); ++kind) {
         if (!used[kind]) continue;
         canvas.rectangle({x, y - 10.0}, 12.0, 12.0, pick(kKinds, kind), "");

@@ -2,19 +2,30 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/weft/pictures/canvas.h"
 #include "runtime/trace/records.h"
 
 namespace weft {
 
-/// Draws one substep of a frame: tasks by device, as planned above and as it ran below, on one time
-/// axis; arrows where a device needs what another one made, and for copies between memories.
+/// What a schedule is drawn of.
+struct GanttPart {
+    std::uint32_t substep = 0;
+    /// The first and the last of those that are drawn; null: all, and what is outside of them.
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> iterations;
+};
+
+/// Draws one substep of a frame, or some of its iterations: tasks by device, as planned above and
+/// as it ran below, on one time axis; arrows where a device needs what another one made, and for
+/// copies between memories.
 class Gantt {
 public:
-    /// Throws UserError if the frame has no such substep, or its records are damaged.
-    Gantt(const RunDescription& run, const FrameRecord& frame, std::uint32_t substep);
+    /// Throws UserError if the frame has no such part, or its records are damaged.
+    Gantt(const RunDescription& run, const FrameRecord& frame, const GanttPart& part);
 
     double width() const;
     double height() const;
@@ -35,14 +46,17 @@ private:
     };
     struct Panel {
         std::string title;
-        std::vector<Bar> bars;  ///< by task number
+        std::vector<Bar> bars;  ///< by task number; without a task where it is not drawn
         std::vector<Copy> copies;
         double end = 0.0;
         double top = 0.0;  ///< [pixels]
     };
 
+    bool shows(const PlanRecord& task) const;
     void find_planned();
-    void find_measured(std::uint32_t substep);
+    void find_measured();
+    void start_at_zero(Panel& panel) const;
+    std::string title() const;
     double x_of(double time) const;
     double row_top(const Panel& panel, std::uint32_t device) const;
 
@@ -59,7 +73,7 @@ private:
 
     const RunDescription& run_;
     const FrameRecord& frame_;
-    std::uint32_t substep_;
+    GanttPart part_;
     std::vector<PlanRecord> tasks_;
     Panel planned_, measured_;
     double end_ = 0.0;  ///< of the time axis

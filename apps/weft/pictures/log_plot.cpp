@@ -101,7 +101,8 @@ double LogPlot::width() const {
 }
 
 double LogPlot::bottom() const {
-    return kTop + std::max(kPlotHeight, kLegendRow * static_cast<double>(legend_.size()));
+    const double legend = kLegendRow * static_cast<double>(legend_.size());
+    return std::max(kTop + std::max(kPlotHeight, legend), least_height_);
 }
 
 double LogPlot::height() const { return bottom() + kBelow; }

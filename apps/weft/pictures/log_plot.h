@@ -16,7 +16,7 @@ struct CurveStyle {
 /// The number of `name` among those seen so far, which it joins.
 std::size_t number_of(std::vector<std::string>& seen, const std::string& name);
 
-/// Colours by solver, lines by devices and plan.
+/// Colours by solver, lines by devices and plan; where all are one solver's, colours by these, too.
 template <class Curve>
 std::vector<CurveStyle> curve_styles(const std::vector<Curve>& curves) {
     std::vector<std::string> solvers, lists;
@@ -25,6 +25,8 @@ std::vector<CurveStyle> curve_styles(const std::vector<Curve>& curves) {
         const std::size_t colour = number_of(solvers, curve.solver);
         styles.push_back({colour, number_of(lists, curve.devices + ' ' + curve.plan)});
     }
+    if (solvers.size() > 1) return styles;
+    for (CurveStyle& style : styles) style.colour = style.line;
     return styles;
 }
 
@@ -41,6 +43,8 @@ public:
 
     double width() const;
     double height() const;
+    /// For plots side by side.
+    void set_height_of(const LogPlot& other) { least_height_ = other.bottom(); }
 
     // Then, drawing.
     void draw_frame(Canvas& canvas) const;
@@ -75,6 +79,7 @@ private:
     std::string title_, x_label_, y_label_;
     Scale x_, y_;
     std::vector<Entry> legend_;
+    double least_height_ = 0.0;
 };
 
 }  // namespace weft

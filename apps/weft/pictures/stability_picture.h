@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/weft/pictures/canvas.h"
+#include "apps/weft/pictures/map_panel.h"
 #include "apps/weft/studies/stability/outcome.h"
 
 namespace weft {
@@ -20,15 +20,9 @@ public:
     void draw(Canvas& canvas) const;
 
 private:
-    struct Panel {
-        const stability::Map& map;
-        std::string solver;
-        Point corner;
-        bool is_first;  ///< of its row: it has the labels
-    };
     std::vector<const stability::Row*> rows_of(const std::string& group) const;
     void draw_map(Canvas& canvas, const stability::Map& map, double top) const;
-    void draw_panel(Canvas& canvas, const Panel& panel) const;
+    MapPanel panel_of(const stability::Map& map, const std::string& solver) const;
     void draw_legend(Canvas& canvas) const;
 
     const std::vector<stability::Row>& rows_;

@@ -126,7 +126,7 @@ private:
         while (!time.is_settled()) time.add(step.advance());
         spent_ += time.total();
         auto positions = step.positions();
-        const double energy = problem_.potential->energy(problem_.from_scene_order(positions));
+        const double energy = problem_.energy(problem_.from_scene_order(positions));
         // More iterations never take less: what is left of the noise is no news.
         const double before = measured_.points.empty() ? 0.0 : measured_.points.back().time;
         const double estimate = estimate_of(positions);
@@ -134,7 +134,9 @@ private:
                       std::move(positions));
     }
 
+    /// Runs estimate E's error.
     double estimate_of(const std::vector<float>& positions) {
+        if (!problem_.end.empty()) return std::numeric_limits<double>::quiet_NaN();
         const State& start = problem_.start;
         const double time = problem_.first_substep * problem_.model.h;
         return estimate_.of({start.positions, start.velocities, positions, time, {}})
@@ -149,6 +151,24 @@ private:
     StepError estimate_{problem_.model.scene, 1};
     MeasuredCurve measured_;
 };
+
+/// Of one step by a solver, on the CPU alone.
+std::vector<Vec3> end_of(const ErrorOptions& options, const ErrorProblem& problem,
+                         const std::string& solver, int iterations) {
+    RunOptions run = options.run;
+    run.solver = solver;
+    run.device = "cpu";
+    run.plan = "single";
+    const auto most = most_iterations(scene_of_step(options, solver, 1).solver);
+    const MeasuredCurve reached = to_curve(in_child_process(solver + " on cpu", [&] {
+        RepeatedStep step(options, run, problem, std::min(iterations, most));
+        step.advance();
+        MeasuredCurve end;
+        end.positions = step.positions();
+        return to_bytes(end);
+    }));
+    return problem.from_scene_order(reached.positions);
+}
 
 }  // namespace
 
@@ -165,22 +185,16 @@ double MeasuredCurve::least_energy() const {
 
 std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem) {
     constexpr int kIterations = 100;
-    RunOptions run = options.run;
-    run.solver = "newton";
-    run.device = "cpu";
-    const auto most = most_iterations(scene_of_step(options, *run.solver, 1).solver);
     try {
-        const MeasuredCurve reached = to_curve(in_child_process("newton on cpu", [&] {
-            RepeatedStep step(options, run, problem, std::min(kIterations, most));
-            step.advance();
-            MeasuredCurve end;
-            end.positions = step.positions();
-            return to_bytes(end);
-        }));
-        return problem.from_scene_order(reached.positions);
+        return end_of(options, problem, "newton", kIterations);
     } catch (const RunError&) {
         return {};
     }
+}
+
+std::vector<Vec3> far_end(const ErrorOptions& options, const ErrorProblem& problem,
+                          int iterations) {
+    return end_of(options, problem, options.solvers.front(), iterations);
 }
 
 MeasuredCurve measure_curve(const ErrorOptions& options, const RunOptions& run,

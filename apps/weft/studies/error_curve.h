@@ -21,6 +21,9 @@ struct MeasuredCurve {
 /// takes double precision minutes to come near from far away. Empty where newton fails.
 std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem);
 
+/// Where the first solver gets alone, with far more iterations than curves have. Throws RunError.
+std::vector<Vec3> far_end(const ErrorOptions& options, const ErrorProblem& problem, int iterations);
+
 /// Runs the step with more and more iterations, in a process of its own. run: solver, devices, plan
 MeasuredCurve measure_curve(const ErrorOptions& options, const RunOptions& run,
                             const ErrorProblem& problem);

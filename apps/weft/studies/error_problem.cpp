@@ -58,7 +58,7 @@ Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int 
     RunOptions run = options.run;
     run.solver = solver;
     Scene scene = with_substeps(read_scene(run.scene, run.overrides()));
-    scene.obstacles.clear();
+    if (!options.obstacles) scene.obstacles.clear();
     scene.dt /= scene.substeps;
     scene.substeps = 1;
     scene.solver.iterations = iterations;
@@ -72,6 +72,16 @@ ErrorProblem::ErrorProblem(const ErrorOptions& options, State state, int substep
       start(std::move(state)) {
     set_state(model, start);
     potential = std::make_unique<IncrementalPotential>(model, substep * model.h);
+}
+
+double ErrorProblem::energy(std::span<const Vec3> x) const {
+    if (end.empty()) return potential->energy(x);
+    double sum = 0.0;
+    for (std::size_t v = 0; v < x.size(); ++v) {
+        const Vec3 apart = x[v] - end[v];
+        sum += 0.5 * potential->inertia()[v] * dot(apart, apart);
+    }
+    return sum;
 }
 
 std::vector<Vec3> ErrorProblem::from_scene_order(const std::vector<float>& positions) const {

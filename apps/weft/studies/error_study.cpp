@@ -23,7 +23,19 @@ void check_solved(const Certificate& certificate) {
         certificate.iterations, certificate.relative_gap));
 }
 
+int far_iterations(const ErrorOptions& options) { return 8 * options.max_iterations; }
+
+/// With obstacles: of the distance from the end.
+Minimum solve_with_obstacles(const ErrorOptions& options, ErrorProblem& problem) {
+    problem.end = far_end(options, problem, far_iterations(options));
+    Minimum minimum;
+    minimum.x = problem.end;
+    minimum.start_energy = problem.energy(problem.potential->predicted());
+    return minimum;
+}
+
 Minimum solve(const ErrorOptions& options, ErrorProblem& problem) {
+    if (options.obstacles) return solve_with_obstacles(options, problem);
     const auto tell = [&](const Certificate& c) {
         if (options.run.quiet) return;
         std::cerr << fmt::format("reference: {} iterations, {:.1e} of the energy left to gain\n",
@@ -43,8 +55,7 @@ double rounding_floor(const ErrorProblem& problem, const Minimum& minimum) {
             rounded[v] = to_vec3(to_float4(rounded[v]));
         }
     }
-    return (problem.potential->energy(rounded) - minimum.energy) /
-           (minimum.start_energy - minimum.energy);
+    return (problem.energy(rounded) - minimum.energy) / (minimum.start_energy - minimum.energy);
 }
 
 void check_options(const ErrorOptions& options, const Scene& scene, int frame) {
@@ -76,7 +87,17 @@ void look_below(ErrorStudy& study, ErrorProblem& problem, const MeasuredCurve& m
 }
 
 /// What E is made of, and what of the scene is no part of it.
-void describe(ErrorStudy& study, const Scene& scene, const Model& model) {
+void describe(ErrorStudy& study, const ErrorOptions& options, const Scene& scene,
+              const Model& model) {
+    if (options.obstacles) {
+        study.energies = {"distance"};
+        study.notes.push_back(
+            fmt::format("obstacles are in the step; E is half the squared distance, weighted by "
+                        "mass / h^2, from "
+                        "where {} ends alone after {} iterations",
+                        options.solvers.front(), far_iterations(options)));
+        return;
+    }
     study.energies = {"inertia"};
     for (const auto& family : model.families) {
         for (const std::string& part : family->parts()) study.energies.push_back(part);
@@ -130,7 +151,7 @@ ErrorStudy study_errors(const ErrorOptions& options) {
     study.step = scene.dt / scene.substeps;
     ErrorProblem problem(options, state_at(options, scene, frame), frame * scene.substeps);
     study.vertices = problem.model.vertex_count();
-    describe(study, scene, problem.model);
+    describe(study, options, scene, problem.model);
     study.minimum = solve(options, problem);
     constexpr double kLostInRounding = 0.1;
     if (!(rounding_floor(problem, study.minimum) < kLostInRounding)) {

@@ -17,6 +17,8 @@ struct ErrorOptions {
     /// [s] that the measurements of one curve may take; null: what fits the mode
     std::optional<double> time;
     int max_iterations = 1000;
+    /// They stay in the step, and errors are distances from where the first solver ends.
+    bool obstacles = false;
     bool as_sweep = false;  ///< nothing is measured: a sweep is made that does
 
     // For whole runs.

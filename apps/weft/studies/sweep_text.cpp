@@ -27,7 +27,7 @@ std::string sweep_head(const SweepHead& head, const Value& run,
 void add_sweep_options(Value& run, const RunOptions& options) {
     run["math"] = options.math;
     if (options.memory != "auto") run["memory"] = options.memory;
-    if (!options.async.empty()) run["async"] = options.async;
+    if (options.async) run["async"] = *options.async;
     if (options.on_crossing != "stop") run["on_crossing"] = options.on_crossing;
 }
 

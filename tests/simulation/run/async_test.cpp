@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
 #include "runtime/error.h"
@@ -100,7 +103,8 @@ TEST_P(Async, TheSerialisedTwinHasTheSameBits) {
 
 TEST_P(Async, TheTwinHasThemWithEverySetting) {
     for (const char* settings : {"dropping=on", "window=3,merge=mean,settle=0", "wait=0,merge=sum",
-                                 "merge=position,dropping=on,settle=2"}) {
+                                 "merge=position,dropping=on,settle=2", "order=within,settle=0",
+                                 "order=across,window=3", "order=free,settle=0"}) {
         SCOPED_TRACE(settings);
         expect_same_on_one_device(*simulation(cpus(2), in_two(), settings));
     }
@@ -143,7 +147,8 @@ TEST_P(Async, TasksKeepToTheirOwn) {
 TEST_P(Async, ItsMapsHold) {
     Model model(scene_, warnings_);
     for (const char* settings :
-         {"", "dropping=on", "window=3,settle=0", "window=4,settle=0", "window=4,wait=0.2"}) {
+         {"", "dropping=on", "window=3,settle=0", "window=4,settle=0", "window=4,wait=0.2",
+          "order=within,wait=0.1,settle=0", "order=across,window=3,settle=0"}) {
         AsyncIterates solver(model, make_solver(model), 3, parse_async_settings(settings));
         for (const Division& division : {in_two(), in_three()}) {
             const auto problem = solver.problem_of(division.partition());
@@ -160,6 +165,148 @@ INSTANTIATE_TEST_SUITE_P(
                     TestCase{Method::kSosd, &kEverything}, TestCase{Method::kSosd, &kSolids},
                     TestCase{Method::kJpgd, &kEverything}, TestCase{Method::kJpgd, &kSolids, 10}),
     name_of_case);
+
+/// JPGD's checks of energy may take back what was done. Of the eight iterations from one to the
+/// next the first two stay in step, all others (but those that settle) do not.
+TEST(AsyncJpgd, TheFirstTwoIterationsBehindACheckStayInStep) {
+    Scene scene = parse_scene(kSolids, "test.toml");
+    scene.solver.method = Method::kJpgd;
+    scene.solver.iterations = 21;
+    Warnings warnings;
+    Model model(scene, warnings);
+    const int strips = model.strips.count();
+    AsyncIterates solver(model, make_solver(model), 2, parse_async_settings("settle=2"));
+    const Division halves{{strips / 2, strips - strips / 2}};
+    const auto base = make_solver(model);
+    const Step step = base->make_step(halves.partition());
+    const auto problem = solver.problem_of(halves.partition());
+    ASSERT_EQ(problem.tasks.size(), step.tasks().size());
+    std::set<int> in_step;
+    for (std::size_t t = 0; t < step.tasks().size(); ++t) {
+        const std::string& kind = step.tasks()[t].body->name;
+        if (kind != "step" && kind != "refresh") {
+            EXPECT_TRUE(problem.tasks[t].synchronous) << kind;
+        } else if (problem.tasks[t].synchronous) {
+            in_step.insert(problem.tasks[t].iteration);
+        }
+    }
+    EXPECT_EQ(in_step, (std::set{0, 1, 8, 9, 16, 17, 19, 20}));
+}
+
+/// Which iteration's work of each device a place has of a cell.
+using Seen = std::map<std::pair<int, int>, std::map<int, int>>;
+
+/// What a check took back must not come in again by what another device still has of it.
+TEST(AsyncJpgd, NobodyLooksBehindACheck) {
+    Scene scene = parse_scene(kSolids, "test.toml");
+    scene.solver.method = Method::kJpgd;
+    scene.solver.iterations = 24;
+    Warnings warnings;
+    Model model(scene, warnings);
+    const int strips = model.strips.count();
+    for (const char* settings : {"settle=0", "window=4,settle=0"}) {
+        AsyncIterates solver(model, make_solver(model), 2, parse_async_settings(settings));
+        const auto problem =
+            solver.problem_of(Division{{strips / 2, strips - strips / 2}}.partition());
+        Seen seen;
+        int looks = 0;
+        for (const auto& step : scheduler::make_exchange_map(problem).steps) {
+            using Kind = scheduler::ExchangeStep::Kind;
+            for (int c = step.cells.begin; step.kind != Kind::kTask && c < step.cells.end; ++c) {
+                std::map<int, int> merged = seen[{step.from, c}];
+                if (step.kind == Kind::kMerge) {
+                    for (const auto& [device, iteration] : seen[{step.to, c}])
+                        merged[device] = std::max(merged[device], iteration);
+                }
+                seen[{step.to, c}] = merged;
+            }
+            if (step.kind != Kind::kTask) continue;
+            const auto& task = problem.tasks[static_cast<std::size_t>(step.task)];
+            for (const auto& range : task.reads) {
+                for (int c = range.begin; c < range.end && !task.synchronous; ++c) {
+                    for (const auto& [device, iteration] : seen[{task.device, c}]) {
+                        EXPECT_GE(iteration, task.iteration / 8 * 8) << settings << ' ' << c;
+                        looks += device != task.device ? 1 : 0;
+                    }
+                }
+            }
+            for (const auto& range : task.writes) {
+                for (int c = range.begin; c < range.end; ++c)
+                    seen[{task.device, c}][task.device] = task.iteration;
+            }
+        }
+        EXPECT_GT(looks, 0);
+    }
+}
+
+/// As the paper cuts an iteration: kinds of tasks instead of strips.
+class AsyncKinds : public Async {
+protected:
+    static constexpr const char* kSettings[] = {
+        "tasks=kinds",
+        "tasks=kinds,rank=off,settle=0",
+        "tasks=kinds,wait=0.2,dropping=on,settle=0",
+        "tasks=kinds,order=free,merge=mean,settle=0",
+        "tasks=kinds,order=within,wait=0.1,settle=0",
+        "tasks=kinds,order=across,wait=0.1,window=3,merge=position"};
+};
+
+TEST_P(AsyncKinds, TasksByKindsAloneChangeNoBits) {
+    SimulationOptions options;
+    options.division = Division{{strips_ / 2, strips_ - strips_ / 2}};
+    options.calibrate = false;
+    options.make_solver = make_solver_by_kinds;
+    Simulation run(scene_, cpus(2), options, warnings_);
+    EXPECT_EQ(hash_of(run), synchronous_hash());
+}
+
+TEST_P(AsyncKinds, AWindowOfOneIsTheSynchronousSolver) {
+    const std::string expected = synchronous_hash();
+    for (const char* settings :
+         {"tasks=kinds,window=1,wait=0.1", "tasks=kinds,window=1,wait=0.1,rank=off,order=within"}) {
+        EXPECT_EQ(hash_of(*simulation(cpus(2), in_two(), settings)), expected) << settings;
+    }
+}
+
+TEST_P(AsyncKinds, TheSerialisedTwinHasTheSameBits) {
+    for (const char* settings : kSettings) {
+        SCOPED_TRACE(settings);
+        expect_same_on_one_device(*simulation(cpus(2), in_two(), settings));
+    }
+}
+
+TEST_P(AsyncKinds, BothDevicesTakePartAndTheMapsHold) {
+    Model model(scene_, warnings_);
+    for (const char* settings : kSettings) {
+        AsyncIterates solver(model, make_solver_by_kinds(model), 2, parse_async_settings(settings));
+        const auto problem = solver.problem_of(in_two().partition());
+        std::set<int> devices;
+        for (const auto& task : problem.tasks) devices.insert(task.device);
+        EXPECT_EQ(devices.size(), 2U) << settings;
+        EXPECT_EQ(scheduler::find_fault(problem, scheduler::make_exchange_map(problem)), "")
+            << settings;
+    }
+}
+
+/// Who has more strips is faster, and gets more to do.
+TEST_P(AsyncKinds, TheFasterDeviceDoesMore) {
+    Model model(scene_, warnings_);
+    AsyncIterates solver(model, make_solver_by_kinds(model), 2,
+                         parse_async_settings("tasks=kinds,wait=0.1,settle=0"));
+    const auto problem = solver.problem_of(Division{{1, strips_ - 1}}.partition());
+    std::array<std::size_t, 2> done{};
+    for (const auto& task : problem.tasks) ++done[static_cast<std::size_t>(task.device)];
+    EXPECT_GT(done[1], 2 * done[0]);
+}
+
+TEST_P(AsyncKinds, MoreThanTwoDevicesAreRefused) {
+    EXPECT_THROW(simulation(cpus(3), in_three(), "tasks=kinds")->advance(), UserError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AsyncKinds,
+                         testing::Values(TestCase{Method::kXpbd, &kEverything},
+                                         TestCase{Method::kXpbd, &kSolids}),
+                         name_of_case);
 
 /// Fewer cases: each builds its kernels.
 class AsyncBesideOpenCl : public Async {};
@@ -266,6 +413,18 @@ TEST(AsyncRuns, ABadStateIsDiagnosed) {
     }
 }
 
+TEST(AsyncRuns, OnlyXpbdHasTasksByKinds) {
+    Scene scene = parse_scene(kSpringsOnly, "test.toml");
+    Warnings warnings;
+    SimulationOptions options;
+    options.plan = PlanKind::kAsync;
+    options.async = parse_async_settings("tasks=kinds");
+    for (const Method method : {Method::kVbd, Method::kSosd, Method::kJpgd}) {
+        scene.solver.method = method;
+        EXPECT_THROW(Simulation(scene, cpus(2), options, warnings), UserError);
+    }
+}
+
 TEST(AsyncRuns, NewtonHasNoAsynchronousForm) {
     Scene scene = parse_scene(kSpringsOnly, "test.toml");
     scene.solver.method = Method::kNewton;
@@ -276,7 +435,8 @@ TEST(AsyncRuns, NewtonHasNoAsynchronousForm) {
 }
 
 TEST(AsyncSettingsText, IsReadAsItIsWritten) {
-    for (const char* text : {"", "window=3", "wait=0.25,merge=mean", "dropping=on,settle=2"}) {
+    for (const char* text : {"", "window=3", "wait=0.25,merge=mean", "dropping=on,settle=2",
+                             "tasks=kinds", "tasks=kinds,rank=off,order=within", "order=across"}) {
         const AsyncSettings settings = parse_async_settings(text);
         EXPECT_EQ(parse_async_settings(to_text(settings)), settings) << text;
     }
@@ -286,7 +446,8 @@ TEST(AsyncSettingsText, IsReadAsItIsWritten) {
 
 TEST(AsyncSettingsText, WhatIsWrongIsRefused) {
     for (const char* text : {"window=0", "window=two", "window", "wait=-1", "wait=nan",
-                             "merge=best", "dropping=maybe", "settle=-1", "widnow=2", "=", ","}) {
+                             "merge=best", "dropping=maybe", "settle=-1", "widnow=2", "=", ",",
+                             "tasks=all", "order=none", "rank=no,tasks=kinds", "rank=off"}) {
         EXPECT_THROW(parse_async_settings(text), UserError) << text;
     }
 }
