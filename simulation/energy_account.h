@@ -41,8 +41,9 @@ public:
     /// being known of [J]
     Entry with_frame(double time, const OutsideWork& outside, const Energies& end,
                      double found = 0.0) const;
-    /// Whether there is energy from nowhere in it. reach: the largest coordinate [m]
-    std::optional<EnergyAlarm> look(const Entry& entry, const Strain& strain, double reach) const;
+    /// Whether there is energy from nowhere in it; the model is at the entry's state.
+    std::optional<EnergyAlarm> look(const Entry& entry, const Strain& strain,
+                                    const Model& model) const;
     void accept(Entry entry) { last_ = std::move(entry); }
     /// Begins anew: what was made from nowhere is now there to be had.
     void forgive();
@@ -53,11 +54,8 @@ public:
     void restore(const std::array<double, 4>& saved, Energies now);
 
 private:
-    double small(double reach) const;
-
-    double closed_;    ///< [s] when the last seam is: until then the ends of frames tell too little
-    double small_;     ///< [J] that a little fall gives, and what starts inside obstacles gets
-    double rounding_;  ///< [J/m^2] that rounding of coordinates gives, by their squares
+    double closed_;  ///< [s] when the last seam is: until then the ends of frames tell too little
+    double small_;   ///< [J] that a little fall gives, and what starts inside obstacles gets
     Entry last_;
 };
 

@@ -29,6 +29,9 @@ double cost_of_iteration(const SolverSettings& solver) {
     return 0.015;
 }
 
+/// So far stretched, cloth looks like rubber. known: what there is already
+double plain_strain(double known) { return std::max(0.2, 1.5 * known); }
+
 }  // namespace
 
 std::vector<char> held_by_obstacles(const Model& model, double time) {
@@ -59,18 +62,26 @@ int frames_per_estimate(const Model& model) {
 bool ErrorSamples::wants(const Model& model, int frame) const {
     if (model.families.empty()) return false;
     constexpr int kOften = 4;  // where iterations depend on it
+    const bool has_tolerance = model.scene.solver.tolerance > 0.0;
+    if (!has_tolerance && last_strain_ > plain_strain(most_strain_)) return true;
     int every = frames_per_estimate(model);
-    if (model.scene.solver.tolerance > 0.0) every = std::min(every, kOften);
+    if (has_tolerance) every = std::min(every, kOften);
     return frame % every == every - 1 || frame == model.scene.frames - 1;
 }
 
 void ErrorSamples::begin(const Model& model, double time) {
     is_begun_ = true;
+    most_strain_ = std::max(most_strain_, last_strain_);
     ends_ = SubstepEnds{model.in_scene_order(model.positions->span()),
                         model.in_scene_order(model.velocities->span()),
                         {},
                         time,
                         {}};
+}
+
+bool ErrorSamples::doubts(double strain, double error) const {
+    constexpr double kHardlySolved = 0.3;
+    return strain > plain_strain(first_strain_) && error > kHardlySolved;
 }
 
 std::optional<double> ErrorSamples::end(const Model& model) {

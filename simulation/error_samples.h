@@ -23,6 +23,15 @@ public:
     void skip() { is_begun_ = false; }
     /// The model is at its end. None: nothing was begun, or see StepError.
     std::optional<double> end(const Model& model);
+    // Of edges, RMS. Where they become plainly longer, frames are chosen for that, too.
+    /// Before anything has happened: nobody has to answer for that.
+    void expect_strain(double strain) { first_strain_ = last_strain_ = most_strain_ = strain; }
+    /// At a frame's end.
+    void note_strain(double strain) { last_strain_ = strain; }
+    /// Whether strain is plain to see in steps that are hardly solved: then it need not be the
+    /// material that gives way. error: of a step, relative
+    bool doubts(double strain, double error) const;
+
     /// What the last estimate was made of.
     const SubstepEnds& last() const { return *ends_; }
     /// The model has other steps from now on.
@@ -32,6 +41,8 @@ private:
     int threads_;
     std::unique_ptr<StepError> error_;  ///< null: not needed yet
     bool is_begun_ = false;
+    double first_strain_ = 0.0, last_strain_ = 0.0;
+    double most_strain_ = 0.0;  ///< that an estimate was made at
     std::optional<SubstepEnds> ends_;
 };
 

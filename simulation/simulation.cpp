@@ -14,8 +14,10 @@
 #include "simulation/diagnosis.h"
 #include "simulation/error_samples.h"
 #include "simulation/run_description.h"
+#include "simulation/scene/auto_method.h"
 #include "simulation/solver/async_iterates.h"
 #include "simulation/solver/own_iterates.h"
+#include "simulation/solver_choice.h"
 #include "simulation/start_checks.h"
 #include "simulation/tolerance_advice.h"
 #include "simulation/watch.h"
@@ -23,6 +25,11 @@
 namespace weft {
 
 namespace {
+
+/// Where nobody has chosen a solver yet, it is chosen now.
+Scene settled(const Scene& scene, PlanKind plan) {
+    return auto_method(scene) ? with_choice(scene, choose_solver(scene, plan)) : scene;
+}
 
 /// With as many iterates as the options ask for, or asynchronous devices need.
 std::unique_ptr<Solver> make_solver_for(Model& model, const SimulationOptions& options,
@@ -48,6 +55,16 @@ int host_threads(const std::vector<std::unique_ptr<Device>>& devices) {
     return std::clamp(units, 1, static_cast<int>(std::max<std::size_t>(usable_cores().size(), 1)));
 }
 
+double strain_of(const Model& model) { return model.edges->strain(model.positions->span()).rms; }
+
+Alarm doubt_of(const Strain& strain, double error) {
+    return {Alarm::Kind::kDoubt,
+            fmt::format("edges are strained by {:.3g} % RMS in steps that are hardly solved "
+                        "(relative error {:.2g})",
+                        100.0 * strain.rms, error),
+            {}};
+}
+
 void record(const Watch::Look& look, FrameRecord& frame) {
     const EnergyAccount::Entry& entry = look.entry;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +85,7 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options, War
 Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> devices,
                        const SimulationOptions& options, Warnings& warnings)
     : options_(options),
-      model_(std::make_shared<Model>(scene, warnings)),
+      model_(std::make_shared<Model>(settled(scene, options.plan), warnings)),
       solver_(make_solver_for(*model_, options, devices.size())),
       watch_(std::make_unique<Watch>(*model_, options.on_trouble != OnTrouble::kIgnore,
                                      host_threads(devices))),
@@ -78,6 +95,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
     if (options.on_trouble != OnTrouble::kIgnore && !model_->scene.contact) {
         samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
     }
+    if (samples_) samples_->expect_strain(strain_of(*model_));
     warn_of_start(*model_, warnings);
     if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
@@ -124,6 +142,7 @@ void Simulation::resume(const Checkpoint& checkpoint) {
     place();
     restore(state);
     watch_->restart(*model_, time(), checkpoint.account);
+    if (samples_) samples_->expect_strain(strain_of(*model_));
 }
 
 /// Everything that knows the length of a step is made anew; devices and costs stay.
@@ -161,6 +180,7 @@ void Simulation::start_from(int frame, std::span<const float> positions,
     restore(state);
     frame_ = frame;
     watch_->restart(*model_, time());
+    if (samples_) samples_->expect_strain(strain_of(*model_));
 }
 
 void Simulation::place() {
@@ -331,6 +351,11 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
     const auto error = samples_ && may_repeat ? samples_->end(*model_) : std::nullopt;
     if (error && iterates_more(*error)) return false;
+    if (error && !look.alarm && samples_->doubts(look.strain.rms, *error) &&
+        !goes_on_with(doubt_of(look.strain, *error), step)) {
+        return false;
+    }
+    if (samples_) samples_->note_strain(look.strain.rms);
     watch_->accept(look, look.alarm.has_value());
     look_at_contact();
     record(look, frame);

@@ -47,7 +47,7 @@ Watch::Look Watch::look_here(const Model& model, const SimulationState& before, 
     if (auto bad = find_beyond_guard(model, look.strain)) {
         look.alarm = {Alarm::Kind::kExplosion, bad->what, bad->vertex};
     } else if (keeps_account_) {
-        const auto alarm = account_.look(look.entry, look.strain, reach_of(positions));
+        const auto alarm = account_.look(look.entry, look.strain, model);
         if (alarm) look.alarm = alarm_of(*alarm);
     }
     return look;

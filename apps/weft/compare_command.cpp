@@ -7,11 +7,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/weft/child_process.h"
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/comparison.h"
 #include "apps/weft/output_file.h"
 #include "runtime/device_list.h"
+#include "simulation/scene/auto_method.h"
+#include "simulation/solver_choice.h"
 
 namespace weft {
 
@@ -79,9 +82,23 @@ void warn_of_different_states(const Comparison& comparison) {
     }
 }
 
-void run_comparison(const CompareOptions& options) {
+/// One choice for all lists, made in a process of its own: this one is to have no threads yet.
+void settle_solver(RunOptions& run, const Scene& scene) {
+    if (!auto_method(scene)) return;
+    const SolverChoice choice = parse_solver_choice(in_child_process("the choice of a solver", [&] {
+        return to_text(choose_solver(scene, run.simulation().plan));
+    }));
+    run.solver = name_of(choice.method);
+    run.iterations = std::to_string(choice.iterations);
+    run.substeps = std::to_string(choice.substeps);
+    if (run.quiet) return;
+    std::cerr << fmt::format("weft: {}: solver {}: {}\n", scene.name, *run.solver, choice.why);
+}
+
+void run_comparison(CompareOptions options) {
     std::signal(SIGPIPE, SIG_IGN);  // a worker that ends early is reported by its last words
     const Scene scene = read_scene(options.run.scene, options.run.overrides());
+    settle_solver(options.run, scene);
     const auto lists = options.devices.empty() ? default_lists() : options.devices;
     const Comparison comparison = compare(options, lists, scene);
     const nlohmann::ordered_json json = to_json(comparison);

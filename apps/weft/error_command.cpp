@@ -97,7 +97,8 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
     CLI::Option* flag = command.add_flag(
         "--trajectory", options.trajectory,
         "measure whole runs instead: substeps x iterations, against a run with far smaller steps");
-    for (const char* other : {"--frame", "--substeps", "--max-iterations", "--obstacles"}) {
+    for (const char* other :
+         {"--frame", "--start", "--substeps", "--max-iterations", "--obstacles"}) {
         flag->excludes(command.get_option(other));
     }
     const auto add = [&](const char* name, auto& value, const char* help) {
@@ -129,6 +130,12 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
     }
     command.add_option("--frame", options.frame,
                        "the step is the first one of this frame (default: the middle of the run)");
+    command
+        .add_option(
+            "--start", options.start,
+            "the step begins at the state in this file: a checkpoint (weft run "
+            "--keep-checkpoint), or frames.vtkhdf, of which --frame says the frame (its last)")
+        ->type_name("STATE");
     command.add_option("--solvers", options.solvers, "solvers, separated by commas (all)")
         ->delimiter(',')
         ->check(one_of(method_names()));
@@ -177,6 +184,8 @@ void add_error_command(CLI::App& app) {
         "Examples:\n"
         "  weft error scenes/flag.toml --solvers xpbd --devices cpu/1,cpu/1+opencl:0/1\n"
         "  weft error scenes/sheet.toml --devices cpu/1+opencl:0/1 --plans exact,async,single\n"
+        "  weft run scenes/skirt.toml --frames 30 --keep-checkpoint\n"
+        "  weft error scenes/skirt.toml --start out/skirt/checkpoint\n"
         "  weft error scenes/sheet.toml --trajectory --frames 20 --devices cpu/1\n"
         "  weft error scenes/flag.toml --devices cpu/1 --as-sweep      (docs/batch.md)");
     command->callback([options] { run_error(*options); });

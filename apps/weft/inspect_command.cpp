@@ -9,6 +9,7 @@
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "simulation/inspect.h"
+#include "simulation/scene/auto_method.h"
 
 namespace weft {
 
@@ -117,6 +118,12 @@ void inspect_scene(const RunOptions& options) {
     Warnings warnings;
     Model model(scene, warnings);
     const auto solver = make_solver(model);
+    if (auto_method(scene)) {
+        warnings.push_back(
+            fmt::format("solver.method = \"auto\" is measured when the scene runs; "
+                        "this is what {} would do",
+                        name_of(scene.solver.method)));
+    }
     if (!options.quiet) print_warnings(warnings);
     const Inspection inspection = inspect(model, *solver);
     if (options.json)

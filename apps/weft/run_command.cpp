@@ -12,9 +12,9 @@ namespace weft {
 
 namespace {
 
-void run_scene(const RunOptions& options) {
+void run_scene(const RunOptions& options, bool keeps_checkpoint) {
     const InterruptNotice notice;
-    SceneRun run(options);
+    SceneRun run(options, keeps_checkpoint);
     run.advance_all(notice);
     const RunSummary summary = run.finish();
     if (options.json)
@@ -34,6 +34,11 @@ void add_run_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("run", "Simulate a scene");
     const auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
+    const auto keeps_checkpoint = std::make_shared<bool>(false);
+    command
+        ->add_flag("--keep-checkpoint", *keeps_checkpoint,
+                   "leave the end's state as a checkpoint, for weft error --start")
+        ->group("Output");
     command->footer(
         "Writes trace.h5, frames.vtkhdf, frames.xdmf and summary.json into the output folder\n"
         "(docs/trace-format.md), and prints the summary.\n\n"
@@ -46,7 +51,7 @@ void add_run_command(CLI::App& app) {
         "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out "
         "out/big\n"
         "  weft run scenes/skirt.toml --frames 5 --no-geometry --json --quiet");
-    command->callback([options] { run_scene(*options); });
+    command->callback([options, keeps_checkpoint] { run_scene(*options, *keeps_checkpoint); });
 }
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -12,7 +13,10 @@
 #include "runtime/error.h"
 #include "runtime/io/cache_folder.h"
 #include "simulation/bodies/mesh_files.h"
+#include "simulation/output/any_checkpoint.h"
+#include "simulation/scene/auto_method.h"
 #include "simulation/solver/async_iterates.h"
+#include "simulation/solver_choice.h"
 
 namespace weft {
 
@@ -48,14 +52,38 @@ std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
     return triangles;
 }
 
+/// What the results depend on, but for the devices. The number of frames may differ.
+std::string origin_of(const RunOptions& options, const Scene& scene) {
+    std::string text = std::string(WEFT_VERSION) + '\n' + options.math + '\n' + scene.text;
+    for (const std::string& value : scene.overrides) {
+        if (!value.starts_with("scene.frames=")) text += '\n' + value;
+    }
+    for (const BodyMesh& mesh : mesh_files(scene)) text += '\n' + file_hash(mesh.path);
+    return cache_key(text);
+}
+
+std::string named(const TextPairs& pairs, const std::string& name) {
+    const auto found = std::ranges::find(pairs, name, &TextPairs::value_type::first);
+    if (found == pairs.end()) throw UserError("the checkpoint does not say: " + name);
+    return found->second;
+}
+
+SolverChoice recorded_choice(const TextPairs& settings) {
+    return {method_named(named(settings, "method")), std::stoi(named(settings, "iterations")),
+            std::stoi(named(settings, "substeps")), named(settings, "solver_choice")};
+}
+
 }  // namespace
 
-SceneRun::SceneRun(const RunOptions& options)
+SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     : options_(options),
+      keeps_checkpoint_(keeps_checkpoint),
       scene_(read_scene(options.scene, options.overrides())),
+      origin_(origin_of(options, scene_)),
       folder_(folder_for(options, scene_), options.force) {
+    settle_solver();
     set_up();
-    const RunDescription description = describe_run(*simulation_, options_);
+    const RunDescription description = describe();
     if (options_.resume) find_earlier(description);
     folder_.claim(earlier_.has_value());
     summary_.emplace(description);
@@ -65,15 +93,33 @@ SceneRun::SceneRun(const RunOptions& options)
     last_checkpoint_ = now();
 }
 
-/// In one line, what the results depend on. The number of frames may differ.
-std::string SceneRun::origin() const {
-    std::string text = std::string(WEFT_VERSION) + '\n' + options_.math + '\n' + scene_.text;
-    for (const std::string& value : scene_.overrides) {
-        if (!value.starts_with("scene.frames=")) text += '\n' + value;
+/// Measured once: a run that goes on has the solver that it began with.
+void SceneRun::settle_solver() {
+    if (!auto_method(scene_)) return;
+    std::optional<Checkpoint> earlier;  // whether it is of this run, is seen when it goes on
+    if (options_.resume && std::filesystem::exists(folder_.checkpoint()))
+        earlier = read_any_checkpoint(folder_.checkpoint());
+    if (!earlier && !options_.quiet) {
+        std::cerr << fmt::format("weft: {}: measuring which solver serves best\n", scene_.name)
+                  << std::flush;
     }
-    for (const BodyMesh& mesh : mesh_files(scene_)) text += '\n' + file_hash(mesh.path);
-    text += async_origin();
-    return cache_key(text);
+    const SolverChoice choice = earlier
+                                    ? recorded_choice(settings_of(*earlier, folder_.checkpoint()))
+                                    : choose_solver(scene_, options_.simulation().plan);
+    scene_ = with_choice(std::move(scene_), choice);
+    solver_choice_ = choice.why;
+}
+
+RunDescription SceneRun::describe() const {
+    RunDescription description = describe_run(*simulation_, options_);
+    if (!solver_choice_.empty()) description.settings.emplace_back("solver_choice", solver_choice_);
+    return description;
+}
+
+/// In one line, what the results depend on.
+std::string SceneRun::origin() const {
+    const std::string async = async_origin();
+    return async.empty() ? origin_ : cache_key(origin_ + async);
 }
 
 /// Asynchronous results depend on the map, which depends on the cuts.
@@ -138,6 +184,10 @@ void SceneRun::say_what_runs() const {
                                       info.units == 1 ? "" : "s"));
     }
     const Model& model = simulation_->model();
+    if (!solver_choice_.empty()) {
+        std::cerr << fmt::format("weft: {}: solver {}: {}\n", scene_.name,
+                                 name_of(scene_.solver.method), solver_choice_);
+    }
     std::cerr << fmt::format(
         "weft: {}: {} vertices, {} substeps x {} iterations, {} frames on {}\n", scene_.name,
         model.vertex_count(), model.scene.substeps, scene_.solver.iterations, scene_.frames,
@@ -280,11 +330,12 @@ RunSummary SceneRun::finish() {
         summary.files.emplace_back("xdmf", GeometryWriter::xdmf_path(folder_.geometry()).string());
     }
     summary.files.emplace_back("summary", folder_.summary().string());
-    if (!summary.finished) {
-        write_checkpoint(folder_.checkpoint(), origin(), checkpoint());
-    }
+    const bool is_kept = !summary.finished || keeps_checkpoint_;
+    if (is_kept) write_checkpoint(folder_.checkpoint(), origin(), checkpoint());
+    if (summary.finished && is_kept)
+        summary.files.emplace_back("checkpoint", folder_.checkpoint().string());
     write_summary(folder_.summary(), summary);
-    if (summary.finished) std::filesystem::remove(folder_.checkpoint());
+    if (!is_kept) std::filesystem::remove(folder_.checkpoint());
     return summary;
 }
 

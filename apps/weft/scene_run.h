@@ -13,8 +13,9 @@ namespace weft {
 /// One `weft run`: a scene, its devices, and everything that it leaves in its output folder.
 class SceneRun {
 public:
-    /// Sets everything up, and claims the output folder. Throws UserError, RunError.
-    explicit SceneRun(const RunOptions& options);
+    /// Sets everything up, and claims the output folder. keeps_checkpoint: the one of the end,
+    /// which a finished run leaves nobody otherwise. Throws UserError, RunError.
+    explicit SceneRun(const RunOptions& options, bool keeps_checkpoint = false);
 
     /// Simulates to the end, or to the frame in which a signal came. Throws RunError; every frame
     /// before is on disk then.
@@ -27,6 +28,8 @@ public:
     const OutputFolder& folder() const { return folder_; }
 
 private:
+    void settle_solver();
+    RunDescription describe() const;
     void set_up();
     void say_what_runs() const;
     Warnings all_warnings() const;
@@ -46,7 +49,10 @@ private:
     std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;
+    bool keeps_checkpoint_;
     Scene scene_;
+    std::string origin_;         ///< what the results depend on, but for the devices
+    std::string solver_choice_;  ///< why it is that; empty: the scene names its solver
     OutputFolder folder_;
     Warnings warnings_;
     std::optional<Simulation> simulation_;

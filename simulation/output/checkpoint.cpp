@@ -3,10 +3,12 @@
 #include <bit>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "runtime/error.h"
 #include "runtime/io/whole_file.h"
+#include "simulation/output/any_checkpoint.h"
 
 namespace weft {
 
@@ -52,19 +54,21 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& orig
     file.finish();
 }
 
-std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
-                                          const std::string& origin) {
+namespace {
+
+/// origin: null: any
+std::optional<Checkpoint> read(const std::filesystem::path& path, const std::string* origin,
+                               const std::string& advice) {
     std::ifstream in(path, std::ios::binary);
     if (!in) return std::nullopt;
     const auto damaged = [&] {
-        return UserError(path.string() +
-                         ": the checkpoint cannot be read; --force starts the run anew");
+        return UserError(path.string() + ": the checkpoint cannot be read" + advice);
     };
     std::string format, made_from, end(std::strlen(kEnd), ' ');
     std::getline(in, format);
     std::getline(in, made_from);
     if (format != kFormat) throw damaged();
-    if (made_from != origin) {
+    if (origin != nullptr && made_from != *origin) {
         throw UserError(path.string() +
                         ": the run there was made from another scene, mesh, setting or version of "
                         "weft; --force starts it anew");
@@ -98,6 +102,27 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
     in.read(end.data(), static_cast<std::streamsize>(end.size()));
     if (!in || end != kEnd) throw damaged();
     return checkpoint;
+}
+
+}  // namespace
+
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
+                                          const std::string& origin) {
+    return read(path, &origin, "; --force starts the run anew");
+}
+
+Checkpoint read_any_checkpoint(const std::filesystem::path& path) {
+    auto checkpoint = read(path, nullptr, "");
+    if (!checkpoint) throw UserError(path.string() + ": no such checkpoint");
+    return std::move(*checkpoint);
+}
+
+TextPairs settings_of(const Checkpoint& checkpoint, const std::filesystem::path& path) {
+    try {
+        return nlohmann::json::from_cbor(checkpoint.report).at("settings").get<TextPairs>();
+    } catch (const nlohmann::json::exception&) {
+        throw UserError(path.string() + ": the checkpoint does not say what run it is of");
+    }
 }
 
 }  // namespace weft

@@ -222,6 +222,7 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
     for (const Estimate& e : estimates_) estimates.push_back({e.frame, e.relative_error});
     return nlohmann::json::to_cbor({{"simulated_time", summary_.simulated_time},
                                     {"transferred_bytes", summary_.transferred_bytes},
+                                    {"settings", summary_.settings},
                                     {"energies", summary_.energies},
                                     {"account", {summary_.work, summary_.dissipated}},
                                     {"strain",

@@ -38,6 +38,12 @@ int BlockMatrix::find(int row, int column) const {
 
 void BlockMatrix::set_zero() { std::fill(blocks_.begin(), blocks_.end(), Mat3{{Vec3{}, {}, {}}}); }
 
+void BlockMatrix::set_sum(const BlockMatrix& a, double factor, const BlockMatrix& b) {
+    for (std::size_t slot = 0; slot < blocks_.size(); ++slot) {
+        blocks_[slot] = a.blocks_[slot] + factor * b.blocks_[slot];
+    }
+}
+
 void BlockMatrix::multiply(std::span<const Vec3> from, std::span<Vec3> to) const {
     for (std::size_t row = 0; row + 1 < row_begin_.size(); ++row) {
         Vec3 sum;

@@ -28,6 +28,9 @@ public:
         blocks_[static_cast<std::size_t>(slot)] = blocks_[static_cast<std::size_t>(slot)] + block;
     }
 
+    /// this = a + factor * b, of three matrices with the same blocks.
+    void set_sum(const BlockMatrix& a, double factor, const BlockMatrix& b);
+
     /// to = this * from. Rows without blocks give 0.
     void multiply(std::span<const Vec3> from, std::span<Vec3> to) const;
 

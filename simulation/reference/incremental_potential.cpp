@@ -1,6 +1,8 @@
 #include "simulation/reference/incremental_potential.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,32 +24,47 @@ Corners corners_of(const ElementFamily& family, int element, std::span<const Vec
     return corners;
 }
 
-/// Takes away a part of all negative eigenvalues: all of them for the nearest positive
-/// semi-definite matrix.
-void project(Blocks& blocks, std::size_t corners, double part) {
+using Whole = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                            3 * kMaxCorners, 3 * kMaxCorners>;
+
+Whole to_whole(const Blocks& blocks, std::size_t corners) {
     const auto size = static_cast<Eigen::Index>(3 * corners);
-    Eigen::MatrixXd whole(size, size);
-    const auto each = [&](auto visit) {
-        for (std::size_t j = 0; j < corners; ++j) {
-            for (std::size_t k = 0; k < corners; ++k) {
-                for (std::size_t r = 0; r < 3; ++r) {
-                    Vec3& row = blocks[j * corners + k].rows[r];
-                    const auto at = static_cast<Eigen::Index>(3 * j + r);
-                    const auto to = static_cast<Eigen::Index>(3 * k);
-                    visit(row.x, whole(at, to));
-                    visit(row.y, whole(at, to + 1));
-                    visit(row.z, whole(at, to + 2));
-                }
-            }
+    Whole whole(size, size);
+    for (Eigen::Index row = 0; row < size; ++row) {
+        for (std::size_t k = 0; k < corners; ++k) {
+            const auto j = static_cast<std::size_t>(row) / 3;
+            const Vec3& part = blocks[j * corners + k].rows[static_cast<std::size_t>(row) % 3];
+            whole.block<1, 3>(row, static_cast<Eigen::Index>(3 * k)) << part.x, part.y, part.z;
         }
-    };
-    each([](double from, double& to) { to = from; });
+    }
+    return whole;
+}
+
+void from_whole(const Whole& whole, std::size_t corners, Blocks& blocks) {
+    for (Eigen::Index row = 0; row < whole.rows(); ++row) {
+        for (std::size_t k = 0; k < corners; ++k) {
+            const auto j = static_cast<std::size_t>(row) / 3;
+            const auto column = static_cast<Eigen::Index>(3 * k);
+            blocks[j * corners + k].rows[static_cast<std::size_t>(row) % 3] = {
+                whole(row, column), whole(row, column + 1), whole(row, column + 2)};
+        }
+    }
+}
+
+/// Leaves of an element's Hessian what its negative eigenvalues make: less that, it is the nearest
+/// positive semi-definite one. False: it has none but by rounding, as most elements, for which it
+/// is far cheaper to find that out than to find eigenvalues.
+bool take_negative_part(Blocks& blocks, std::size_t corners) {
+    constexpr double kRounding = 1e-13;
+    const Whole whole = to_whole(blocks, corners);
+    const double shift = kRounding * whole.cwiseAbs().diagonal().sum();
+    const Whole lifted = whole + shift * Whole::Identity(whole.rows(), whole.rows());
+    if (Eigen::LLT<Whole>(lifted).info() == Eigen::Success) return false;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
-    if (solver.eigenvalues()(0) >= 0.0) return;
     const Eigen::VectorXd negative = solver.eigenvalues().cwiseMin(0.0);
-    whole -=
-        part * solver.eigenvectors() * negative.asDiagonal() * solver.eigenvectors().transpose();
-    each([](double& to, double from) { to = from; });
+    from_whole(solver.eigenvectors() * negative.asDiagonal() * solver.eigenvectors().transpose(),
+               corners, blocks);
+    return true;
 }
 
 }  // namespace
@@ -80,26 +97,26 @@ void IncrementalPotential::make_pattern() {
         for (int e = 0; e < family->count(); ++e) groups.push_back({family->corners(e)});
     }
     for (const FrozenContact& contact : contacts_) groups.push_back({contact.corners});
-    hessian_ = BlockMatrix(free, groups);
+    exact_ = negative_ = hessian_ = BlockMatrix(free, groups);
 
     for (const auto& family : families_) {
         std::vector<int>& slots = slots_.emplace_back();
         for (int e = 0; e < family->count(); ++e) {
             const auto vertices = family->corners(e);
             for (const int row : vertices) {
-                for (const int column : vertices) slots.push_back(hessian_.find(row, column));
+                for (const int column : vertices) slots.push_back(exact_.find(row, column));
             }
         }
     }
     for (const FrozenContact& contact : contacts_) {
         for (const int row : contact.corners) {
             for (const int column : contact.corners) {
-                contact_slots_.push_back(hessian_.find(row, column));
+                contact_slots_.push_back(exact_.find(row, column));
             }
         }
     }
     for (std::size_t v = 0; v < free.size(); ++v) {
-        diagonal_.push_back(hessian_.find(static_cast<int>(v), static_cast<int>(v)));
+        diagonal_.push_back(exact_.find(static_cast<int>(v), static_cast<int>(v)));
     }
 }
 
@@ -169,38 +186,50 @@ double IncrementalPotential::force_size(std::span<const Vec3> x) const {
     return size;
 }
 
-const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double projection) {
-    hessian_.set_zero();
-    for (std::size_t v = 0; v < predicted_.size(); ++v) {
-        if (diagonal_[v] >= 0) hessian_.add(diagonal_[v], inertia_[v] * Mat3{});
-    }
+template <class Take>
+void IncrementalPotential::sum_up(BlockMatrix& sum, Take take) const {
+    sum.set_zero();
     for (std::size_t f = 0; f < families_.size(); ++f) {
         const ElementFamily& family = *families_[f];
         auto slot = slots_[f].begin();
         for (int e = 0; e < family.count(); ++e) {
             Blocks blocks;
-            family.hessian(e, corners_of(family, e, x).data(), blocks.data());
+            family.hessian(e, corners_of(family, e, at_).data(), blocks.data());
             const std::size_t corners = family.corners(e).size();
-            if (projection > 0.0) project(blocks, corners, projection);
+            const bool is_taken = take(blocks, corners);
             for (std::size_t b = 0; b < corners * corners; ++b, ++slot) {
-                if (*slot >= 0) hessian_.add(*slot, blocks[b]);
+                if (is_taken && *slot >= 0) sum.add(*slot, blocks[b]);
             }
         }
     }
-    add_contacts(x);
+}
+
+const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double projection) {
+    if (!std::ranges::equal(x, at_)) {
+        at_.assign(x.begin(), x.end());
+        sum_up(exact_, [](Blocks&, std::size_t) { return true; });
+        for (std::size_t v = 0; v < predicted_.size(); ++v) {
+            if (diagonal_[v] >= 0) exact_.add(diagonal_[v], inertia_[v] * Mat3{});
+        }
+        add_contacts();
+        has_negative_ = false;
+    }
+    if (projection == 0.0) return exact_;
+    if (!has_negative_) sum_up(negative_, take_negative_part);
+    has_negative_ = true;
+    hessian_.set_sum(exact_, -projection, negative_);
     return hessian_;
 }
 
-/// Positive semi-definite as they are.
-void IncrementalPotential::add_contacts(std::span<const Vec3> x) {
+void IncrementalPotential::add_contacts() {
     auto slot = contact_slots_.begin();
     for (const FrozenContact& contact : contacts_) {
-        const double curvature = contact.curvature(contact.gap(x));
+        const double curvature = contact.curvature(contact.gap(at_));
         const Vec3 n = contact.normal;
         const Mat3 along{{n.x * n, n.y * n, n.z * n}};
         for (const double row : contact.weights) {
             for (const double column : contact.weights) {
-                if (*slot >= 0) hessian_.add(*slot, (curvature * row * column) * along);
+                if (*slot >= 0) exact_.add(*slot, (curvature * row * column) * along);
                 ++slot;
             }
         }

@@ -50,13 +50,20 @@ public:
 
 private:
     void make_pattern();
-    void add_contacts(std::span<const Vec3> x);
+    template <class Take>
+    void sum_up(BlockMatrix& sum, Take take) const;
+    /// To the exact one; they are positive semi-definite as they are.
+    void add_contacts();
 
     const std::vector<std::unique_ptr<ElementFamily>>& families_;  ///< the model's
     std::vector<FrozenContact> contacts_;
     std::vector<Vec3> predicted_;
     std::vector<double> inertia_;
-    BlockMatrix hessian_;
+    std::vector<Vec3> at_;  ///< where the Hessian was asked for last
+    BlockMatrix exact_;     ///< there
+    BlockMatrix negative_;  ///< the elements' negative curvature there, if has_negative_
+    BlockMatrix hessian_;   ///< a mixture of both
+    bool has_negative_ = false;
     std::vector<std::vector<int>> slots_;  ///< [family][element * corners^2], -1 where held
     std::vector<int> contact_slots_;       ///< [contact * 16], -1 where held
     std::vector<int> diagonal_;            ///< [vertices] slot, -1 where held

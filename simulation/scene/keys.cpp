@@ -1,5 +1,6 @@
 #include "simulation/scene/keys.h"
 
+#include "simulation/scene/auto_method.h"
 #include "simulation/scene/body_keys.h"
 #include "simulation/scene/limits.h"
 #include "simulation/scene/node_values.h"
@@ -49,16 +50,23 @@ const TableKeys& scene_table() {
     return table;
 }
 
+std::vector<std::string> method_choices() {
+    std::vector<std::string> names = method_names();
+    names.emplace_back(kAutoMethod);
+    return names;
+}
+
 const TableKeys& solver_table() {
     static const TableKeys table{{
         {.name = "method",
          .type = Type::kText,
-         .help = "solver",
+         .help = "solver; auto: the one that is found to be the fastest for the scene",
          .fallback = std::string("xpbd"),
-         .choices = method_names()},
+         .choices = method_choices()},
         {.name = "iterations",
          .type = Type::kInteger,
-         .help = "iterations per substep",
+         .help =
+             "iterations per substep; with method auto the most that it may take (left out: 64)",
          .fallback = std::int64_t{SolverSettings{}.iterations},
          .range = between(1, 1e5)},
         {.name = "tolerance",

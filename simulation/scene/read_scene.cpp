@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "simulation/scene/auto_method.h"
 #include "simulation/scene/keys.h"
 #include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
@@ -184,7 +185,9 @@ void read_scene_table(const Node& table, Scene& scene) {
 
 SolverSettings read_solver(const Node& table) {
     SolverSettings solver;
-    solver.method = method_named(text_value(table, "method"));
+    // Of one that is to be chosen yet, settings are the defaults.
+    const std::string method = text_value(table, "method");
+    if (method != kAutoMethod) solver.method = method_named(method);
     solver.iterations = integer_value(table, "iterations");
     if (table.find("tolerance")) solver.tolerance = number_value(table, "tolerance");
     solver.cg_steps = integer_value(table, "cg_steps");

@@ -284,3 +284,52 @@ def test_free_fall_has_nothing_to_solve(folder):
     (folder / "scene.toml").write_text(SHEET)
     expect_error(weft("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--frame", "0",
                       "--quiet", cwd=folder), 2, "nothing to solve", "--frame")
+
+
+def study_of(folder, *arguments):
+    return weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers",
+                     "vbd", "--max-iterations", "2", *arguments, cwd=folder)
+
+
+@pytest.mark.parametrize("solver", ["xpbd", "vbd"])
+def test_start_from_a_kept_checkpoint(folder, solver):
+    """The same step as after a run up to there, whatever solver's order its state is in."""
+    (folder / "scene.toml").write_text(HANGING.replace('"xpbd"', f'"{solver}"'))
+    summary = weft_json("run", "scene.toml", "--frames", "4", "--keep-checkpoint", "--device",
+                        "cpu/1", cwd=folder)
+    checkpoint = folder / "out/sheet/checkpoint"
+    assert summary["files"]["checkpoint"] and checkpoint.exists()
+    by_run = study_of(folder, "--frame", "4")
+    (folder / "scene.toml").write_text(HANGING)
+    by_file = study_of(folder, "--start", checkpoint)
+    for key in ("frame", "start_energy", "reference_energy"):
+        assert by_file[key] == by_run[key], key
+    expect_error(weft("error", "scene.toml", "--start", checkpoint, "--frame", "2", cwd=folder), 2,
+                 "frame 4", "--frame")
+
+
+def test_start_from_a_frame_of_a_geometry(folder):
+    """Its velocities are those between two frames, so the step is nearly the same."""
+    weft_json("run", "scene.toml", "--frames", "5", "--device", "cpu/1", cwd=folder)
+    geometry = folder / "out/sheet/frames.vtkhdf"
+    assert not (folder / "out/sheet/checkpoint").exists()
+    assert study_of(folder, "--start", geometry)["frame"] == 5
+    near = study_of(folder, "--start", geometry, "--frame", "3")
+    exact = study_of(folder, "--frame", "3")
+    assert near["frame"] == 3
+    assert near["start_energy"] != exact["start_energy"]
+    assert near["reference_energy"] == pytest.approx(exact["reference_energy"], rel=0.5)
+    expect_error(weft("error", "scene.toml", "--start", geometry, "--frame", "17", cwd=folder), 2,
+                 "frames.vtkhdf", "no state at the start of frame 17")
+
+
+def test_start_from_what_is_no_state_of_the_scene(folder):
+    weft_json("run", "scene.toml", "--frames", "2", "--keep-checkpoint", "--device", "cpu/1",
+              cwd=folder)
+    (folder / "other.toml").write_text(HANGING.replace("[12, 12]", "[13, 12]"))
+    (folder / "heavy.toml").write_text(HANGING.replace("density = 0.2", "density = 0.3"))
+    for name, scene in [("checkpoint", "other.toml"), ("checkpoint", "heavy.toml"),
+                        ("frames.vtkhdf", "other.toml"), ("summary.json", "scene.toml"),
+                        ("trace.h5", "scene.toml"), ("missing", "scene.toml")]:
+        result = weft("error", scene, "--start", folder / "out/sheet" / name, cwd=folder)
+        expect_error(result, 2)

@@ -1,10 +1,13 @@
 #include "apps/weft/studies/error_problem.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <limits>
 
 #include "apps/weft/child_process.h"
 #include "apps/weft/progress.h"
+#include "runtime/error.h"
 
 namespace weft {
 
@@ -27,6 +30,11 @@ State to_state(const std::string& bytes) {
 }
 
 void set_state(Model& model, const State& state) {
+    const std::size_t here = model.positions->count();
+    if (state.positions.size() != 3 * here) {
+        throw UserError(fmt::format("the state has {} vertices, and the scene {}",
+                                    state.positions.size() / 3, here));
+    }
     model.from_scene_order(state.positions, model.positions->span());
     model.from_scene_order(state.velocities, model.velocities->span());
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "apps/weft/studies/error_curve.h"
+#include "apps/weft/studies/start_state.h"
 #include "runtime/error.h"
 #include "simulation/families/convert.h"
 #include "simulation/reference/minimum_cache.h"
@@ -58,11 +59,7 @@ double rounding_floor(const ErrorProblem& problem, const Minimum& minimum) {
     return (problem.energy(rounded) - minimum.energy) / (minimum.start_energy - minimum.energy);
 }
 
-void check_options(const ErrorOptions& options, const Scene& scene, int frame) {
-    if (frame < 0 || frame >= scene.frames) {
-        throw UserError(
-            fmt::format("--frame {}: the scene has frames 0 to {}", frame, scene.frames - 1));
-    }
+void check_options(const ErrorOptions& options) {
     if (options.max_iterations < 1) {
         throw UserError(
             fmt::format("--max-iterations {}: expected 1 or more", options.max_iterations));
@@ -74,6 +71,17 @@ void check_options(const ErrorOptions& options, const Scene& scene, int frame) {
         run.plan = plan;
         static_cast<void>(run.simulation());
     }
+}
+
+/// Where the step begins: from a file, or by a run up to there.
+StartState start_of(const ErrorOptions& options, const Scene& scene) {
+    const int frame = options.frame.value_or(scene.frames / 2);
+    if (!options.start && (frame < 0 || frame >= scene.frames)) {
+        throw UserError(
+            fmt::format("--frame {}: the scene has frames 0 to {}", frame, scene.frames - 1));
+    }
+    if (!options.start) return {state_at(options, scene, frame), frame};
+    return read_start(*options.start, scene, options.frame);
 }
 
 /// E has a lower minimum than the one that Newton's method found where a curve got below it.
@@ -142,14 +150,14 @@ const ErrorPoint* first_below(const ErrorCurve& curve, double error) {
 
 ErrorStudy study_errors(const ErrorOptions& options) {
     const Scene scene = with_substeps(read_scene(options.run.scene, options.run.overrides()));
-    const int frame = options.frame.value_or(scene.frames / 2);
-    check_options(options, scene, frame);
+    check_options(options);
+    StartState start = start_of(options, scene);
 
     ErrorStudy study;
     study.scene = scene.name;
-    study.frame = frame;
+    study.frame = start.frame;
     study.step = scene.dt / scene.substeps;
-    ErrorProblem problem(options, state_at(options, scene, frame), frame * scene.substeps);
+    ErrorProblem problem(options, std::move(start.state), start.frame * scene.substeps);
     study.vertices = problem.model.vertex_count();
     describe(study, options, scene, problem.model);
     study.minimum = solve(options, problem);
@@ -159,7 +167,7 @@ ErrorStudy study_errors(const ErrorOptions& options) {
             fmt::format("{}: at frame {} there is nothing to solve: free motion is as "
                         "near to the minimum of E as float32 can tell; choose another "
                         "--frame",
-                        options.run.scene, frame));
+                        options.run.scene, study.frame));
     }
 
     for (const std::string& solver : options.solvers) {

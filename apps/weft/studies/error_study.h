@@ -13,6 +13,7 @@ namespace weft {
 struct ErrorOptions {
     RunOptions run;
     std::optional<int> frame;
+    std::optional<std::string> start;  ///< file with the state that the step begins at
     std::vector<std::string> solvers, devices, plans;
     /// [s] that the measurements of one curve may take; null: what fits the mode
     std::optional<double> time;

@@ -12,6 +12,7 @@ batch::Value options_for_all(const ErrorOptions& options) {
     if (options.time) run["time"] = *options.time;
     if (!options.trajectory) {
         if (options.frame) run["frame"] = *options.frame;
+        if (options.start) run["start"] = std::filesystem::absolute(*options.start).string();
         run["max_iterations"] = options.max_iterations;
         return run;
     }

@@ -130,6 +130,122 @@ TEST(Trouble, ARunGoesOnFromItsCheckpointWithItsSmallerSteps) {
     EXPECT_EQ(second.hash(), whole);
 }
 
+/// What a run has said by its end.
+std::string said_by(const Scene& scene) {
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    while (simulation.frame() < scene.frames) simulation.advance();
+    std::string all;
+    for (const Trouble& trouble : simulation.troubles()) all += trouble.what + '\n';
+    return all;
+}
+
+class EveryWrong : public EverySolver {};
+
+/// A sheet of triangles 400 times as long as wide, in steps that few iterations do not solve: where
+/// it ends far longer than it was, the run says so. Coordinates are no excuse for that.
+TEST_P(EveryWrong, SliversThatGiveWayAreSeen) {
+    const Scene scene = scene_of(R"(
+[scene]
+frames = 30
+dt = 0.016666667
+substeps = 8
+[[cloth]]
+grid = { size = [1.0, 0.01], resolution = [6, 9] }
+translate = [3.0, 0.0, 0.0]
+density = 0.2
+membrane = { young = 1.0e6, poisson = 0.3, thickness = 1.0e-3 }
+pins = { edges = ["x-"] }
+)");
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    FrameRecord frame;
+    double most = 0.0;
+    while (simulation.frame() < scene.frames) {
+        frame = simulation.advance();
+        most = std::max(most, frame.strain_rms);
+    }
+    if (GetParam() == Method::kNewton)
+        EXPECT_LT(most, 0.02);
+    else
+        EXPECT_GT(most, 0.05) << "the scene is a case";
+    EXPECT_EQ(simulation.troubles().empty(), most < 0.1);
+}
+
+/// A cloth that its pins tear along faster than waves run in it: there is energy for anything, and
+/// iterations that do not solve the steps show.
+TEST_P(EveryWrong, SupersonicPinsAreNoExcuse) {
+    const Scene scene = scene_of(R"(
+[scene]
+frames = 6
+dt = 0.016666667
+substeps = 10
+[solver]
+iterations = 8
+[[cloth]]
+grid = { size = [1.5, 1.0], resolution = [30, 20] }
+rotate = [1.0, 0.0, 0.0, 90.0]
+density = 0.15
+stretch = { stiffness = 2.0e4 }
+pins = { edges = ["x-"], motion = { velocity = [0.0, 0.0, 300.0] } }
+)");
+    const std::string said = said_by(scene);
+    EXPECT_EQ(said.empty(), GetParam() == Method::kNewton) << said;
+}
+
+/// What turning pins do is not known, so that nothing can be said of energy. Strain that is plain
+/// to see in steps that are not solved is doubted all the same.
+TEST_P(EveryWrong, StrainIsDoubtedWhereWorkIsUnknown) {
+    const Scene scene = scene_of(R"(
+[scene]
+frames = 40
+dt = 0.016666667
+substeps = 4
+[solver]
+iterations = 1
+[[cloth]]
+grid = { size = [0.2, 0.6], resolution = [9, 25] }
+density = 2.0
+stretch = { stiffness = 1.0e5 }
+[[cloth.pins]]
+edges = ["z-"]
+[[cloth.pins]]
+edges = ["z+"]
+motion = { velocity = [0.0, 0.0, -0.2], angular_velocity = 10.0, axis = [0.0, 0.0, 1.0] }
+)");
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    double most = 0.0;
+    while (simulation.frame() < scene.frames) {
+        most = std::max(most, simulation.advance().strain_rms);
+    }
+    EXPECT_EQ(simulation.troubles().empty(), most < 0.2) << most;
+}
+
+/// What is soft and stretched far, in steps that are solved, is left alone.
+TEST_P(EveryWrong, NothingIsSaidOfRubber) {
+    const Scene scene = scene_of(R"(
+[scene]
+frames = 40
+dt = 0.016666667
+substeps = 20
+[solver]
+iterations = 20
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [9, 9] }
+rotate = [1.0, 0.0, 0.0, 90.0]
+density = 0.2
+stretch = { stiffness = 3.0 }
+pins = { edges = ["z-"] }
+)");
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    double most = 0.0;
+    while (simulation.frame() < scene.frames) {
+        most = std::max(most, simulation.advance().strain_rms);
+    }
+    EXPECT_GT(most, 0.25) << "the scene is a case";
+    EXPECT_TRUE(simulation.troubles().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryWrong, kMethods, name_of_method);
+
 class EveryAccount : public EverySolver {
 protected:
     /// Every frame's record; fails where something was wrong.
