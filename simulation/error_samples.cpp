@@ -80,7 +80,7 @@ void ErrorSamples::begin(const Model& model, double time) {
 }
 
 bool ErrorSamples::doubts(double strain, double error) const {
-    constexpr double kHardlySolved = 0.3;
+    constexpr double kHardlySolved = 0.1;
     return strain > plain_strain(first_strain_) && error > kHardlySolved;
 }
 

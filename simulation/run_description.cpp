@@ -65,6 +65,7 @@ RunDescription describe_run(const Model& model, const Solver& solver,
         if (device->info().memory != MemoryModel::kHost && devices.size() > 1)
             run.has_transfers = true;
     }
+    run.has_contacts = scene.contact && !model.triangles.empty();
     run.kinds = solver.kinds();
     run.energies = energy_names(model);
     return run;

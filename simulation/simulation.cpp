@@ -185,11 +185,16 @@ void Simulation::start_from(int frame, std::span<const float> positions,
 
 void Simulation::place() {
     model_->place(time());
+    if (ContactResponse* contact = solver_->contact()) contact->motion().place(time());
     if (run_) hand_over_placed();
 }
 
 void Simulation::hand_over_placed() {
-    for (BufferStorage* buffer : model_->placed_buffers()) run_->executor().host_wrote(*buffer);
+    std::vector<BufferStorage*> buffers = model_->placed_buffers();
+    if (ContactResponse* contact = solver_->contact()) {
+        for (BufferStorage* buffer : contact->motion().placed_buffers()) buffers.push_back(buffer);
+    }
+    for (BufferStorage* buffer : buffers) run_->executor().host_wrote(*buffer);
 }
 
 void Simulation::fetch() {
@@ -261,6 +266,7 @@ FrameRecord Simulation::advance(const FrameDetails& details) {
 void Simulation::begin_frame() {
     start_ = snapshot();
     snapshot_.reset();
+    redone_ = 0;
 }
 
 /// What has passed since the last part ended belongs to this one.
@@ -277,16 +283,19 @@ void Simulation::go_on_without(const DeviceLost& lost) {
 }
 
 /// All substeps of the frame. It runs again from its start as long as a table was too small for it;
-/// and once more if what is faster than was reckoned with might have gone through an obstacle, with
-/// that obstacle swept.
+/// once more if bodies went where contact did not look for them; and once more if what is faster
+/// than was reckoned with might have gone through an obstacle, with that obstacle swept.
 RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
     bool is_swept_anew = false;
     while (true) {
         RunTimes times = run_substeps(step, plan);
         fetch();
-        const bool was_cut_short = run_->make_room();
-        if (!was_cut_short && (is_swept_anew || !model_->outran_obstacles())) return times;
-        is_swept_anew = is_swept_anew || !was_cut_short;
+        ContactResponse* contact = solver_->contact();
+        const bool has_to_be_redone =
+            run_->make_room() || (contact != nullptr && contact->revise(run_->executor()));
+        if (!has_to_be_redone && (is_swept_anew || !model_->outran_obstacles())) return times;
+        is_swept_anew = is_swept_anew || !has_to_be_redone;
+        if (has_to_be_redone) ++redone_;
         restore(*start_);
         hand_over_placed();
     }
@@ -357,7 +366,7 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     }
     if (samples_) samples_->note_strain(look.strain.rms);
     watch_->accept(look, look.alarm.has_value());
-    look_at_contact();
+    look_at_contact(frame);
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
@@ -411,11 +420,13 @@ StoredInContacts Simulation::stored_in_contacts() {
 }
 
 /// What is not guaranteed is told, where it happens.
-void Simulation::look_at_contact() {
+void Simulation::look_at_contact(FrameRecord& frame) {
     ContactResponse* contact = solver_->contact();
     if (contact == nullptr) return;
     run_->executor().fetch(contact->cut_counts());
     run_->executor().fetch(contact->nearest());
+    frame.contacts = {contact->account()};
+    frame.contacts.front().redone = redone_;
     const std::string what = contact->trouble();
     if (what.empty()) return;
     tell({Alarm::Kind::kDoubt, what, {}},

@@ -154,7 +154,7 @@ private:
     bool iterates_more(double error);
     void iterate_less(double error);
     void tell_of_tolerance(double error);
-    void look_at_contact();
+    void look_at_contact(FrameRecord& frame);
     StoredInContacts stored_in_contacts();
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
@@ -176,6 +176,7 @@ private:
     std::shared_ptr<const SimulationState> start_;  ///< of the frame at hand
     /// Of the present state; null: none was asked for yet.
     mutable std::shared_ptr<const SimulationState> snapshot_;
+    std::uint32_t redone_ = 0;  ///< how often the frame at hand was run again for contact
     int frame_ = 0;
 };
 

@@ -109,7 +109,7 @@ public:
         std::ranges::copy(stack_.anchors, anchors_.data());
         std::ranges::copy(stack_.strips.begin, strip_begin_.data());
         pairs_ = std::make_unique<ContactPairs>(
-            make_surface(stack_.mesh, stack_.strips), stack_.mesh.rest, anchors_, strips_,
+            make_surface(stack_.mesh, stack_.strips), stack_.mesh.rest, anchors_, anchors_, strips_,
             PairSettings{shape.thickness, 0.1f * shape.thickness, true, 4}, 0);
         bool grew = true;
         while (grew) {

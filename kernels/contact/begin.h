@@ -7,26 +7,34 @@
 
 WEFT_KERNELS_BEGIN
 
-/// What contacts are looked for with: where each vertex is, and how far it may get.
+/// What contacts are looked for with: where each vertex is, and how far it may get. What a group of
+/// bodies does together is no matter of contact: anchors move with it, and what comes behind is all
+/// relative to them. Planes between two sides that move by one translation move with it, and what
+/// is on its side of one before and behind, was so on its straight way.
 /// positions  [vertices] xyz: of held vertices where they will be [m], w = 1/mass [1/kg]
 /// previous   [vertices] xyz: x_t
 /// targets    [vertices] xyz: x~ of free vertices
 /// goals      [vertices] written: xyz: where inertia, or the scene, leads; w = 1/mass
-/// anchors    [vertices] written: xyz: x_t, w: the radius of the ball in which it stays [m]
-/// led        [1] the farthest that the scene leads a held vertex [m]: so far others may be pushed
-/// margin     by which it may go farther than that and its inertia [m]
+/// anchors    [vertices] written: xyz: x_t + u, w: the radius of the ball in which it stays [m]
+/// bodies     [vertices] whose each is
+/// carried    [substeps * body_count] xyz: u, what the body's group does together in the substep,
+///            w: the farthest that the scene leads one of the group: so far others may be pushed [m]
+/// margin     by which a vertex may go farther than that and its inertia [m]
 /// most       that it may go [m]
 WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* previous,
             WEFT_GLOBAL const float4* targets, WEFT_GLOBAL float4* goals,
-            WEFT_GLOBAL float4* anchors, WEFT_GLOBAL const float* led, float margin, float most) {
+            WEFT_GLOBAL float4* anchors, WEFT_GLOBAL const int* bodies,
+            WEFT_GLOBAL const float4* carried, int body_count, float margin, float most,
+            int substep) {
     const real4 x = load4(positions, i);
-    const real3 anchor = xyz(load4(previous, i));
+    const real4 together = gather4(carried + substep * body_count, load_index(bodies, i));
+    const real3 anchor = add(xyz(load4(previous, i)), xyz(together));
     const real4 target = load4(targets, i);
     const mask moves = x.w > splat(0.0f);
     const real3 goal =
         make3(moves ? target.x : x.x, moves ? target.y : x.y, moves ? target.z : x.z);
     const real way = length3(subtract(goal, anchor));
-    const real pushed = moves ? splat(led[0]) : splat(0.0f);
+    const real pushed = moves ? together.w : splat(0.0f);
     store4(goals, i, with_w(goal, x.w));
     store4(anchors, i, with_w(anchor, smaller(way, splat(most)) + splat(margin) + pushed));
 }

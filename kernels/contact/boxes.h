@@ -109,27 +109,57 @@ WEFT_INLINE real4 gather_corner(WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL c
     return gather4(anchors, address(gather_whole(corners, address(entry))));
 }
 
+/// A corner's way by inertia, or as the scene leads it.
+WEFT_INLINE real3 gather_way(WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const int* corners,
+                             whole entry, real4 anchor) {
+    return subtract(xyz(gather_corner(goals, corners, entry)), xyz(anchor));
+}
+
+WEFT_INLINE real square_of(real3 a) { return dot3(a, a); }
+
+// Shares of the largest way that counts as quiet (tilt_patches): two vertices may come nearer to
+// each other by twice that. Inertia may lead vertices of one patch so far from their mean,
+#define WEFT_SPREAD_SHARE 0.125f
+// means of patches beside each other so far apart,
+#define WEFT_DRIFT_SHARE 0.25f
+// and a vertex may go so far from where inertia led it. 2 * 0.125 + 0.25 + 2 * 0.75 = 2.
+#define WEFT_LOOSE_SHARE 0.75f
+
 /// Which way patches face, and whether each is flat and quiet: its normals lie within 30 degrees of
-/// their mean, and no vertex gets so far that a triangle could turn over.
+/// their mean, and no vertex gets so far that a triangle could turn over; or all are led so alike
+/// by their inertia that none does, as long as they follow it. (quiet.h looks whether they did.)
+/// goals       [vertices] xyz: where inertia, or the scene, leads [m]
+/// foresees    [1] 0: nothing counts but how far vertices may get
 /// face_begin  [items + 1] where the faces of each begin (Surface::faces)
 /// corners     [3 * face_count] column-major: model vertices
 /// high        [items] as enclose_patches leaves it
 /// quiet       [items] how far vertices may get [m]
 /// tilts       [items] written: where it is flat and quiet xyz = the mean of the normals, of length
-///             1, and w = 1; else 0
-WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* face_begin,
+///             1, and w = 1, or 2 where it is quiet by inertia alone; else 0
+/// drifts      [items] written: xyz: the mean of the ways [m], w: how far apart ways of patches
+///             beside it may be [m]
+WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
+            WEFT_GLOBAL const int* foresees, WEFT_GLOBAL const int* face_begin,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts, int face_count) {
+            WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts, WEFT_GLOBAL float4* drifts,
+            int face_count) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole begin = load_whole(face_begin, i);
     const whole count = load_whole(face_begin, column(i, 1, 1)) - begin;
     const real limit = load(quiet, i);
-    // What is not quiet by itself need not be looked at.
+    // What is not quiet by itself need not be looked at, if nothing is foreseen.
+    const real apart = splat(WEFT_SPREAD_SHARE) * limit;
     const mask may_be = load4(high, i).w < limit;
-    const int longest = any_item(may_be) ? largest_whole(count) : 0;
+    const int do_foresee = foresees[0];
+    int longest = 0;
+    if (do_foresee != 0 || any_item(may_be)) longest = largest_whole(count);
     real3 mean = make3(zero, zero, zero);
+    real3 drift = make3(zero, zero, zero);
+    real ways = zero;
     real flat = may_be ? one : zero;
+    real alike = do_foresee != 0 ? one : zero;
+    real upright = one;
     for (int pass = 0; pass < 2; ++pass) {
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
@@ -146,15 +176,36 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const i
                 // cos^2 30 degrees = 3/4; the mean has length 1 by now.
                 const real along = dot3(normal, mean);
                 const mask leans = along * along < splat(0.75f) * dot3(normal, normal);
-                const real upright = along > zero ? (leans ? zero : flat) : zero;
-                flat = on ? upright : flat;
+                const real faces = along > zero ? (leans ? zero : upright) : zero;
+                upright = on ? faces : upright;
+            }
+            if (do_foresee != 0) {
+                const whole next = entry + splat_whole(face_count);
+                const whole last = next + splat_whole(face_count);
+                const real3 way_a = gather_way(goals, corners, entry, a);
+                const real3 way_b = gather_way(goals, corners, next, b);
+                const real3 way_c = gather_way(goals, corners, last, c);
+                if (pass == 0) {
+                    drift = add_scaled(drift, add(way_a, add(way_b, way_c)), on ? one : zero);
+                    ways = ways + (on ? splat(3.0f) : zero);
+                } else {
+                    const real most = larger(square_of(subtract(way_a, drift)),
+                                             larger(square_of(subtract(way_b, drift)),
+                                                    square_of(subtract(way_c, drift))));
+                    const real near = most < apart * apart ? alike : zero;
+                    alike = on ? near : alike;
+                }
             }
         }
         if (pass == 0) mean = scale(mean, one / divisor(length3(mean)));
+        if (pass == 0) drift = scale(drift, one / larger(ways, one));
     }
+    const real quiet_by = flat > zero ? one : alike * splat(2.0f);
+    flat = quiet_by * upright;
     const mask is_flat = flat > zero;
     mean = make3(is_flat ? mean.x : zero, is_flat ? mean.y : zero, is_flat ? mean.z : zero);
     store4(tilts, i, with_w(mean, flat));
+    store4(drifts, i, with_w(drift, splat(WEFT_DRIFT_SHARE) * limit));
 }
 
 /// Boxes of triangles and of edges, where their patch is near another one or itself.

@@ -64,7 +64,8 @@ WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat
 
 /// Where the plane between the two sides ends, from the closest point of B on, along n. Both sides
 /// get of the gap by how fast they come. What is led by the scene comes as far as it wants: the
-/// plane goes before it.
+/// plane goes before it, also over where the other side is. (Where both are led through each other,
+/// it goes between.)
 /// distance     of the two sides [m]
 /// a, b         the most that vertices of a side come nearer [m]
 /// led_a, led_b  likewise, of held vertices alone
@@ -74,7 +75,10 @@ WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b
     const real part = (b - led_b) / larger(both_ways, splat(1e-12f));
     const real bounded = smaller(larger(part, splat(0.05f)), splat(0.95f));
     const real share = both_ways > splat(1e-9f) ? bounded : splat(0.5f);
-    return led_b + share * larger(distance - led_a - led_b, least);
+    const real left = distance - led_a - led_b;
+    const real too_far = smaller(left - least, splat(0.0f));
+    const real part_of_a = led_a / larger(led_a + led_b, splat(1e-12f));
+    return led_b + share * larger(left, least) + too_far * part_of_a;
 }
 
 /// A contact as all of its vertices see it.

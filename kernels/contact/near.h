@@ -5,14 +5,36 @@
 
 WEFT_KERNELS_BEGIN
 
-/// 1 where the faces of a third patch lie as those of the two between which it is.
-WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, whole via, real3 tilt,
-                               real3 other_tilt) {
-    const real4 between = gather4(tilts, address(via));
-    const real half_way = splat(0.5f);
-    const mask smooth =
-        both(dot3(xyz(between), tilt) >= half_way, dot3(xyz(between), other_tilt) >= half_way);
-    return both(smooth, between.w > splat(0.0f)) ? splat_whole(1) : splat_whole(0);
+WEFT_INLINE real4 splat4(float4 p) {
+    real4 v = {splat(p.x), splat(p.y), splat(p.z), splat(p.w)};
+    return v;
+}
+
+/// Which way a patch faces, and where its inertia leads it.
+typedef struct {
+    real4 tilt, drift;
+} real_leaning;
+
+/// 1 where two flat patches face one way, and are quiet together: each by itself, or as they drift
+/// alike. Else 0.
+WEFT_INLINE whole are_smooth(real_leaning a, real_leaning b) {
+    const whole none = splat_whole(0);
+    const whole yes = splat_whole(1);
+    const real each = a.tilt.w * b.tilt.w;
+    const real3 apart = subtract(xyz(a.drift), xyz(b.drift));
+    const real most = smaller(a.drift.w, b.drift.w);
+    const whole alike = dot3(apart, apart) < most * most ? yes : none;
+    const whole quiet = each > splat(1.0f) ? alike : yes;
+    const mask flat = both(dot3(xyz(a.tilt), xyz(b.tilt)) >= splat(0.5f), each > splat(0.0f));
+    return flat ? quiet : none;
+}
+
+/// 1 where a third patch lies as the two between which it is, and goes as they do.
+WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
+                               whole via, real_leaning a, real_leaning b) {
+    const integer patch = address(via);
+    const real_leaning between = {gather4(tilts, patch), gather4(drifts, patch)};
+    return are_smooth(between, a) * are_smooth(between, b);
 }
 
 /// For each patch those whose boxes overlap with its own, itself too, ascending. Left out are
@@ -23,7 +45,7 @@ WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, whole via, real3
 /// Boxes are around boxes: roots (one per strip), blocks, groups, patches. begin of a level: where
 /// the children of each box begin in the next one.
 /// low, high     [items] boxes of patches
-/// tilts         [items] as tilt_patches says
+/// tilts, drifts [items] as tilt_patches says
 /// beside_begin  [items + 1] where the list of each begins in `besides`: those that it hangs together
 ///               with, ascending, and as its end a number that is larger than any; vias: by which
 /// bodies        [items]
@@ -35,16 +57,16 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
             WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
             WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* beside_begin,
-            WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
-            WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
-            int item_count, int root_count, int self, int instance) {
+            WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
+            WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
+            WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+            WEFT_GLOBAL int* others, int item_count, int root_count, int self, int instance) {
     real_box box;
     box.low = xyz(load4(low, i));
     box.high = xyz(load4(high, i));
     const float_box all = around_all(box);
-    const real4 tilt = load4(tilts, i);
+    const real_leaning own = {load4(tilts, i), load4(drifts, i)};
     const whole body = load_whole(bodies, i);
     const whole is_held = load_whole(held, i);
     whole cursor = load_whole(beside_begin, i);
@@ -66,20 +88,17 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
                     mask on = overlaps(box, p_low, p_high);
                     if (self == 0) on = both(on, body != splat_whole(bodies[p]));
                     if (held[p] != 0) on = both(on, is_held == splat_whole(0));
-                    const float4 p_tilt = tilts[p];
-                    const real3 way = make3(splat(p_tilt.x), splat(p_tilt.y), splat(p_tilt.z));
-                    const mask smooth = both(dot3(xyz(tilt), way) >= splat(0.5f),
-                                             tilt.w * splat(p_tilt.w) > splat(0.0f));
-                    if (any_item(both(on, smooth))) {
+                    const real_leaning other = {splat4(tilts[p]), splat4(drifts[p])};
+                    const whole smooth = are_smooth(own, other);
+                    if (any_item(both(on, smooth > splat_whole(0)))) {
                         const whole number = splat_whole(p);
                         while (any_item(beside < number)) {
                             cursor = beside < number ? cursor + splat_whole(1) : cursor;
                             beside = gather_whole(besides, address(cursor));
                         }
                         const whole by = gather_whole(vias, address(cursor));
-                        const whole between = is_smooth_by(tilts, by, xyz(tilt), way);
-                        const whole skipped =
-                            both(smooth, beside == number) ? between : splat_whole(0);
+                        const whole between = smooth * is_smooth_by(tilts, drifts, by, own, other);
+                        const whole skipped = beside == number ? between : splat_whole(0);
                         on = both(on, skipped == splat_whole(0));
                     }
                     row = with_entry(row, on, others, splat_whole(p));

@@ -16,7 +16,11 @@
 // the energy falls. (The block c w_j^2 alone would be that of one vertex that moves while all
 // others stand still: from a snapshot it diverges.)
 
+// Friction needs no more than that. At the anchors the way r between the closest points is d n, so
+// what leads along the surface of r(s) = sum w_j s_j is how far the two have slid since.
+
 #include "kernels/contact/energy.h"
+#include "kernels/contact/friction.h"
 #include "kernels/contact/truncation.h"
 #include "kernels/descent/rows.h"
 #include "kernels/lanes.h"
@@ -26,6 +30,7 @@ WEFT_KERNELS_BEGIN
 /// One entry of a vertex' row, at a snapshot.
 typedef struct {
     real3 normal;
+    real3 slip;      ///< of this side along the other one since the substep's begin [m]
     real own;        ///< |w| of the vertex
     real spread;     ///< W |w|
     real gap;        ///< [m]
@@ -50,13 +55,28 @@ load_contact(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL const int* corner0,
     contact_entry c;
     c.normal = xyz(n);
     c.ahead = n.w;
-    c.gap = w.y * dot3(c.normal, subtract(s1, s0)) + w.z * dot3(c.normal, subtract(s2, s0)) +
-            w.w * dot3(c.normal, subtract(s3, s0));
+    const real3 way1 = subtract(s1, s0);
+    const real3 way2 = subtract(s2, s0);
+    const real3 way3 = subtract(s3, s0);
+    c.gap = w.y * dot3(c.normal, way1) + w.z * dot3(c.normal, way2) + w.w * dot3(c.normal, way3);
+    const real3 way = add_scaled(add_scaled(scale(way1, w.y), way2, w.z), way3, w.w);
+    c.slip = add_scaled(way, c.normal, -c.gap);
     c.own = m.x;
     c.spread = m.y;
     c.stiffness = m.z;
     c.range = m.w;
     return c;
+}
+
+/// Adds what a contact rubs.
+/// pull  of both sides per slip: the coefficient times N times f/|u| [N/m]
+/// way   of the vertex since the snapshot [m]
+WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, real3 way) {
+    const real block = pull * c.spread;
+    const real3 along = along_surface(way, c.normal);
+    s.gradient = add_scaled(add_scaled(s.gradient, c.slip, pull * c.own), along, block);
+    s.hessian = add_sym(s.hessian, add_sym(diagonal_sym(block), outer_sym(c.normal, -block)));
+    return s;
 }
 
 /// Adds the contacts' part of each vertex' gradient and Hessian block.
@@ -70,6 +90,8 @@ load_contact(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL const int* corner0,
 /// weights     [entries] w_j, those of the vertex' side positive
 /// measures    [entries] |w| of the vertex, W |w|, stiffness [N/m], range [m]
 /// sums        [9 * items] see descent/rows.h
+/// friction    Coulomb coefficient; 0: none
+/// creep       the way in a substep below which friction sticks [m]
 WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* vertices,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
@@ -77,7 +99,7 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
             WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
             WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* sums, int item_count,
-            int vertex_count, int iteration) {
+            int vertex_count, int iteration, float friction, float creep) {
     const integer vertex = load_index(vertices, i);
     const whole count = gather_whole(counts, vertex);
     const int longest = largest_whole(count);
@@ -99,6 +121,11 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
             const real push = both(on, is_near) ? slope * c.own : splat(0.0f);
             s.gradient = add_scaled(s.gradient, c.normal, push + block * dot3(c.normal, way));
             s.hessian = add_sym(s.hessian, outer_sym(c.normal, block));
+            if (friction > 0.0f) {
+                const real press = both(on, is_near) ? -splat(friction) * slope : splat(0.0f);
+                const real grip = friction_grip(length3(c.slip), splat(creep));
+                s = add_rubbing(s, c, press * grip, way);
+            }
         }
         store_derivatives(sums, i, item_count, s);
     }

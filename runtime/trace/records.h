@@ -42,6 +42,8 @@ struct RunDescription {
     std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
     /// False where all devices share memory: then there is no transfers table.
     bool has_transfers = false;
+    /// False where nothing touches anything: then there is no contacts table.
+    bool has_contacts = false;
 };
 
 /// One task of the plan of a frame's substeps. Every substep of a frame runs the same plan.
@@ -115,6 +117,19 @@ struct TransferRecord {
     double end = 0.0;
 };
 
+/// What contact did in one frame.
+struct ContactRecord {
+    std::uint64_t pairs = 0;     ///< that might touch in a substep
+    std::uint64_t rows = 0;      ///< entries of vertices for those that might push
+    std::uint32_t touching = 0;  ///< vertices that a substep found nearer than the thickness
+    std::uint32_t truncated = 0;  ///< vertices that were taken back in a substep
+    std::uint32_t lost = 0;       ///< of these, found no place that all of their contacts allow
+    std::uint32_t redone = 0;     ///< how often the frame was run again for contact
+    /// With so many it would hardly have to take anybody back; 0: it has not.
+    std::uint32_t substeps_wanted = 0;
+    double least_distance = 0.0;  ///< of what substeps began with [m]; infinite: nothing was near
+};
+
 /// Everything about one frame; the writer takes it whole.
 struct FrameRecord {
     std::uint32_t frame = 0;
@@ -145,6 +160,7 @@ struct FrameRecord {
     std::vector<CostRecord> costs;          ///< that the frame was planned with
     std::vector<LinkRecord> links;          ///< likewise; empty with a single device
     std::vector<TransferRecord> transfers;  ///< empty unless RunDescription::has_transfers
+    std::vector<ContactRecord> contacts;    ///< one; none unless RunDescription::has_contacts
     std::uint32_t substeps = 0;             ///< that the frame was made of; 0: not known
     std::uint32_t iterations = 0;           ///< that each of them was solved by; 0: not known
     /// Of its last substep, (E - E*) / (E0 - E*), as estimated; NaN: not in this frame.

@@ -232,6 +232,19 @@ RowType transfer_row_type() {
         .type();
 }
 
+RowType contact_row_type() {
+    return RowColumns<ContactRecord>()
+        .add("pairs", &ContactRecord::pairs)
+        .add("rows", &ContactRecord::rows)
+        .add("touching", &ContactRecord::touching)
+        .add("truncated", &ContactRecord::truncated)
+        .add("lost", &ContactRecord::lost)
+        .add("redone", &ContactRecord::redone)
+        .add("substeps_wanted", &ContactRecord::substeps_wanted)
+        .add("least_distance", &ContactRecord::least_distance, "m")
+        .type();
+}
+
 void write_devices(hid_t run_group, const std::vector<DeviceDescription>& devices) {
     std::vector<DeviceRow> rows;
     for (const DeviceDescription& device : devices) {

@@ -103,6 +103,7 @@ RowType execution_row_type();  ///< Row<ExecutionRecord>
 RowType cost_row_type();       ///< Row<CostRecord>
 RowType link_row_type();       ///< Row<LinkRecord>
 RowType transfer_row_type();   ///< Row<TransferRecord>
+RowType contact_row_type();    ///< Row<ContactRecord>
 
 // Rows that belong to a graph.
 RowType division_row_type();    ///< Row<DivisionRecord>

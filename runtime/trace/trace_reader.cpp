@@ -138,6 +138,7 @@ struct Tables {
           costs(file, "costs", trace::cost_row_type()),
           links(file, "links", trace::link_row_type()),
           transfers(file, "transfers", trace::transfer_row_type()),
+          contacts(file, "contacts", trace::contact_row_type()),
           energies(file, "energies", trace::energy_row_type(run.energies)),
           frames(file, "frames", trace::frame_row_type(run.devices.size())) {}
 
@@ -148,6 +149,7 @@ struct Tables {
     TableReader costs;
     TableReader links;
     TableReader transfers;
+    TableReader contacts;
     TableReader energies;
     TableReader frames;
 };
@@ -176,6 +178,7 @@ public:
             record.costs = tables_->costs.records<CostRecord>(record.frame);
             record.links = tables_->links.records<LinkRecord>(record.frame);
             record.transfers = tables_->transfers.records<TransferRecord>(record.frame);
+            record.contacts = tables_->contacts.records<ContactRecord>(record.frame);
             record.graph = graph(graph_numbers_.at(index));
         });
         return record;
@@ -246,6 +249,7 @@ private:
         run_.settings = read_pairs(group.id(), "settings");
         run_.meshes = read_pairs(group.id(), "meshes");
         run_.has_transfers = hdf5::exists(file_.id(), "transfers");
+        run_.has_contacts = hdf5::exists(file_.id(), "contacts");
     }
 
     void read_frames() {

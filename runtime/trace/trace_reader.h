@@ -28,8 +28,8 @@ public:
     bool finished() const;                  ///< false: going on, failed or killed
     const std::string& state_hash() const;  ///< empty until the run has finished
 
-    /// All complete frames in order, without their plan, graph, executions, costs, links and
-    /// transfers.
+    /// All complete frames in order, without their plan, graph, executions, costs, links,
+    /// transfers and contacts.
     const std::vector<FrameRecord>& frames() const;
 
     /// Everything about frames()[index].

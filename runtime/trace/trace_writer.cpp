@@ -86,6 +86,9 @@ struct Tables {
         if (run.has_transfers) {
             transfers.emplace(file, "transfers", trace::transfer_row_type(), kManyRows, kDeflate);
         }
+        if (run.has_contacts) {
+            contacts.emplace(file, "contacts", trace::contact_row_type(), kFewRows, 0);
+        }
     }
 
     /// The row of `frames` comes last: a frame that has one is complete.
@@ -96,6 +99,7 @@ struct Tables {
         costs.append(record.frame, record.costs);
         if (links) links->append(record.frame, record.links);
         if (transfers) transfers->append(record.frame, record.transfers);
+        if (contacts) contacts->append(record.frame, record.contacts);
         append_energies(record);
         append_frame(record);
     }
@@ -167,6 +171,7 @@ struct Tables {
         }
         if (links) action(*links);
         if (transfers) action(*transfers);
+        if (contacts) action(*contacts);
     }
 
     Table plan;
@@ -178,6 +183,7 @@ struct Tables {
     Table frames;
     std::optional<Table> links;
     std::optional<Table> transfers;
+    std::optional<Table> contacts;
 
 private:
     std::set<std::uint32_t> graphs_;  // that are written

@@ -53,15 +53,18 @@ void fills(Step::Adding adding, ContactPairs::Table& rows, const Items& items, c
 }  // namespace
 
 ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
-                           const Segments& strips, const PairSettings& settings, int first_kind)
+                           Buffer<float4>& goals, const Segments& strips,
+                           const PairSettings& settings, int first_kind)
     : surface_(std::move(surface)),
       s_(surface_, rest),
       settings_(settings),
       halo_(0.5f * settings.thickness),
       anchors_(anchors),
+      goals_(goals),
       strips_(strips),
       points_("contact.points", size_of(s_.vertices.items)),
       tilts_("contact.tilts", size_of(s_.patches)),
+      drifts_("contact.drifts", size_of(s_.patches)),
       patch_low_("contact.patches.low", size_of(s_.patches)),
       patch_high_("contact.patches.high", size_of(s_.patches)),
       triangle_low_("contact.triangles.low", size_of(s_.triangles.items)),
@@ -90,8 +93,9 @@ void ContactPairs::make_boxes_body(int kind) {
         {launch_on(kernels::place_points, s_.vertices.items, anchors_, s_.model_vertices, points_),
          launch_on(kernels::enclose_patches, s_.patches, anchors_, s_.hulls.begin, s_.hulls.items,
                    patch_low_, patch_high_, margin),
-         launch_on(kernels::tilt_patches, s_.patches, anchors_, s_.face_begin, s_.face_corners,
-                   patch_high_, s_.quiet, tilts_, surface_.faces.begin.back()),
+         launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, foresees_, s_.face_begin,
+                   s_.face_corners, patch_high_, s_.quiet, tilts_, drifts_,
+                   surface_.faces.begin.back()),
          unite(s_.groups, patch_low_, patch_high_), unite(s_.blocks, s_.groups.low, s_.groups.high),
          unite(s_.roots, s_.blocks.low, s_.blocks.high)}};
 }
@@ -105,9 +109,10 @@ void ContactPairs::make_near_body(int kind) {
         {launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
                    s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
                    s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
-                   tilts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held, table.rows(),
-                   table.counts(), table.needs(), near_.others, surface_.patch_count(),
-                   surface_.strip_count(), settings_.self ? 1 : 0, kInstance),
+                   tilts_, drifts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held,
+                   table.rows(), table.counts(), table.needs(), near_.others,
+                   surface_.patch_count(), surface_.strip_count(), settings_.self ? 1 : 0,
+                   kInstance),
          launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
                    s_.triangles.patches, table.counts(), triangle_low_, triangle_high_, margin, 3,
                    surface_.triangle_count()),
@@ -143,8 +148,10 @@ void ContactPairs::add_boxes(Step& step, const Part& part, int region) {
     const int next = std::min(part.end + 1, strips_.strip_count);
     auto adding = step.add(boxes_, 0, part.begin, part.end, region);
     adding.reads(anchors_, strips_.item(part.begin), strips_.item(next));
+    adding.reads(goals_, strips_.item(part.begin), strips_.item(next));
     updates(adding, points_, s_.vertices.items, part);
     updates(adding, tilts_, s_.patches, part);
+    updates(adding, drifts_, s_.patches, part);
     updates(adding, patch_low_, s_.patches, part);
     updates(adding, patch_high_, s_.patches, part);
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
@@ -158,6 +165,7 @@ void ContactPairs::add_near(Step& step, const Part& part, int region) {
     const auto [first, last] = range(s_.vertices.items, part.begin, next);
     auto adding = step.add(near_task_, 0, part.begin, part.end, region);
     reads_all(adding, tilts_, s_.patches);
+    reads_all(adding, drifts_, s_.patches);
     reads_all(adding, patch_low_, s_.patches);
     reads_all(adding, patch_high_, s_.patches);
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {

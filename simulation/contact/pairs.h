@@ -42,10 +42,13 @@ public:
     /// anchors     [model vertices] xyz [m], w = how far from there the vertex may get in this
     ///             substep, at least a quarter of the thickness, so that whatever is nearer than
     ///             the thickness is found [m]; somebody else's task writes them, before `boxes`
+    /// goals       [model vertices] xyz: where inertia, or the scene, leads in the substep [m];
+    ///             likewise. They count where foresees() says so
     /// strips      the model's vertices, as the surface was made with
     /// first_kind  the kinds of the tasks are this and the two behind it
     ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
-                 const Segments& strips, const PairSettings& settings, int first_kind);
+                 Buffer<float4>& goals, const Segments& strips, const PairSettings& settings,
+                 int first_kind);
 
     std::vector<const TaskBody*> bodies() const { return {&boxes_, &near_task_, &pairs_}; }
     std::vector<RowTable*> tables() { return {&near_.table, &vt_.table, &tv_.table, &ee_.table}; }
@@ -63,6 +66,12 @@ public:
     SurfaceBuffers& buffers() { return s_; }
     /// [vertices of the surface] their anchors.
     Buffer<float4>& points() { return points_; }
+    /// [1] not 0: what inertia leads alike counts as quiet, and somebody looks whether it went
+    /// there (kernels/contact/quiet.h). At the beginning 0.
+    Buffer<int>& foresees() { return foresees_; }
+    /// [patches] boxes around all that their vertices may reach, and a quarter of the thickness.
+    Buffer<float4>& patch_low() { return patch_low_; }
+    Buffer<float4>& patch_high() { return patch_high_; }
 
 private:
     void make_boxes_body(int kind);
@@ -73,9 +82,10 @@ private:
     SurfaceBuffers s_;
     PairSettings settings_;
     float halo_;  ///< half of the thickness
-    Buffer<float4>& anchors_;
+    Buffer<float4>&anchors_, &goals_;
     Segments strips_;
-    Buffer<float4> points_, tilts_;
+    Buffer<int> foresees_{"contact.foresees", 1};
+    Buffer<float4> points_, tilts_, drifts_;
     Buffer<float4> patch_low_, patch_high_;
     Buffer<float4> triangle_low_, triangle_high_, edge_low_, edge_high_;
     Table near_, vt_, tv_, ee_;

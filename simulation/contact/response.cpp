@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "kernels/contact/begin.h"
+#include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
+#include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/truncate.h"
+#include "runtime/executor.h"
 #include "simulation/contact/stiffness.h"
+#include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
 
 namespace weft {
@@ -24,7 +29,10 @@ constexpr float kStartSlack = 0.25f;  ///< what a substep's start leaves between
 constexpr float kSoftSlack = 0.5f;
 constexpr float kHardSlack = 0.125f;
 
+constexpr double kCreepSpeed = 1e-3;  ///< below which friction sticks [m/s]
+
 constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels/contact/fill.h
+constexpr float kFar = 1e29f;       ///< distances beyond this are none [m]; likewise
 constexpr int kFirstRoom = 4;       ///< of a row
 
 /// The largest coordinate [m].
@@ -34,6 +42,12 @@ double reach_of(const Model& model) {
         most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     }
     return static_cast<double>(most);
+}
+
+/// How far surfaces that stick may creep in a substep [m]; no less than coordinates can tell.
+double creep_of(const Model& model) {
+    constexpr double kUlp = std::numeric_limits<float>::epsilon();
+    return std::max(kCreepSpeed * model.h, 4.0 * kUlp * reach_of(model));
 }
 
 template <class T>
@@ -50,6 +64,22 @@ void fill_columns(const std::vector<std::array<int, N>>& items, const Surface& s
             table[k * items.size() + i] = surface.vertices[static_cast<std::size_t>(items[i][k])];
         }
     }
+}
+
+/// The least of what its patches say; huge inside of bodies.
+std::vector<float> quiet_of_vertices(const Surface& surface, const Buffer<float>& patches,
+                                     std::size_t vertex_count) {
+    std::vector<float> quiet(vertex_count, 1e30f);
+    for (int p = 0; p < surface.patch_count(); ++p) {
+        for (const int t : surface.faces[p]) {
+            for (const int v : surface.triangles[static_cast<std::size_t>(t)]) {
+                float& least =
+                    quiet[static_cast<std::size_t>(surface.vertices[static_cast<std::size_t>(v)])];
+                least = std::min(least, patches[static_cast<std::size_t>(p)]);
+            }
+        }
+    }
+    return quiet;
 }
 
 }  // namespace
@@ -84,11 +114,16 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
     : model_(model),
       range_(static_cast<float>(model.scene.contact->thickness)),
       floor_(static_cast<float>(contact_floor(model.scene.contact->thickness, reach_of(model)))),
+      friction_(static_cast<float>(model.scene.contact->friction.value_or(0.0))),
+      creep_(static_cast<float>(creep_of(model))),
       anchors_("contact.anchors", model.positions->count()),
       goals_("contact.goals", model.positions->count()),
       stiffness_("contact.stiffness", model.positions->count()),
-      pairs_(make_surface(surface_of(model), model.strips), rest_of(model), anchors_,
+      pairs_(make_surface(surface_of(model), model.strips), rest_of(model), anchors_, goals_,
              model.vertices(), {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
+      motion_(model, pairs_.surface(), model.scene.contact->thickness,
+              2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),
+      quiet_("contact.quiet_vertices", model.positions->count()),
       incidence_(pairs_.surface(), model.vertex_count()),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
       planes_table_("contact.planes", model.vertices(), kFirstRoom),
@@ -105,10 +140,10 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       nearest_("contact.nearest", model.positions->count()),
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
-      still_("contact.still", 1),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
+    copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
     make_fill();
 }
 
@@ -130,7 +165,11 @@ void ContactResponse::make_fill() {
                 corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
                 model_.vertex_count(), pairs_.surface().triangle_count(),
                 pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
-         truncation(*model_.positions, kStartSlack * range_), snapshot(*model_.positions, 0)}};
+         truncation(*model_.positions, kStartSlack * range_), snapshot(*model_.positions, 0),
+         launch(kernels::find_strays, pairs_.buffers().patches.segments, pairs_.patch_low(),
+                pairs_.patch_high(), static_cast<Buffer<int>&>(pairs_.buffers().bodies),
+                motion_.carried(), motion_.chunk_of(), motion_.fences(), motion_.strays(),
+                motion_.body_count(), motion_.chunk_count(), kInstance)}};
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {
@@ -154,12 +193,18 @@ std::vector<RowTable*> ContactResponse::tables() {
     return list;
 }
 
+bool ContactResponse::revise(Executor& executor) {
+    executor.fetch(motion_.strays());
+    executor.fetch(motion_.unquiet());
+    return motion_.revise();
+}
+
 void ContactResponse::add_begin(std::vector<Launch>& launches, Buffer<float4>& targets) {
     const auto most = static_cast<float>(model_.scene.guard.max_speed * model_.h);
-    Buffer<float>& led = model_.moving_pins ? model_.moving_pins->farthest() : still_;
     launches.push_back(launch(kernels::begin_contacts, model_.vertices(), *model_.positions,
-                              *model_.previous, targets, goals_, anchors_, led, kMargin * range_,
-                              most));
+                              *model_.previous, targets, goals_, anchors_, motion_.body_of(),
+                              motion_.carried(), motion_.body_count(), kMargin * range_, most,
+                              kInstance));
 }
 
 void ContactResponse::add_begin_accesses(Step::Adding& task, int first, int last) {
@@ -197,6 +242,11 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
         .updates(nearest_, first, last)
         .updates(cut_, first, last)
         .updates(snapshots_, first, last);
+    const Segments& patches = pairs_.buffers().patches.segments;
+    const std::pair own(patches.item(region.begin), patches.item(region.end));
+    task.reads(pairs_.patch_low(), own.first, own.second)
+        .reads(pairs_.patch_high(), own.first, own.second)
+        .updates(motion_.strays(), own.first, own.second);
 }
 
 void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region) {
@@ -226,7 +276,8 @@ Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& po
                                     Buffer<float>& sums) {
     return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
                   contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration);
+                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration,
+                  friction_, creep_);
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
@@ -274,11 +325,16 @@ void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, i
 void ContactResponse::add_count(std::vector<Launch>& launches) {
     launches.push_back(launch(kernels::count_cut, model_.vertices(), cut_, cut_counts_,
                               model_.vertex_count(), kInstance));
+    launches.push_back(launch(kernels::find_unquiet, model_.vertices(), *model_.positions, anchors_,
+                              goals_, quiet_, motion_.unquiet(), kInstance));
 }
 
 void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last) {
     const int all = model_.vertex_count();
     task.reads(cut_, first, last)
+        .reads(anchors_, first, last)
+        .reads(goals_, first, last)
+        .updates(motion_.unquiet(), first, last)
         .updates(cut_counts_, first, last)
         .updates(cut_counts_, all + first, all + last);
 }
@@ -307,6 +363,46 @@ std::string ContactResponse::trouble() const {
 
 ContactRows ContactResponse::rows() {
     return {contacts_, corner0_, corner1_, corner2_, corner3_, normals_, weights_, measures_};
+}
+
+ContactRecord ContactResponse::account() {
+    const auto sum = [](Buffer<int>& needs) {
+        return std::accumulate(needs.span().begin(), needs.span().end(), std::uint64_t{0});
+    };
+    const auto count = static_cast<std::size_t>(model_.vertex_count());
+    ContactRecord record;
+    record.pairs = sum(pairs_.vt().table.needs()) + sum(pairs_.ee().table.needs()) / 2;
+    record.rows = sum(contacts_.needs());
+    record.least_distance = std::numeric_limits<double>::infinity();
+    for (std::size_t v = 0; v < count; ++v) {
+        if (nearest_[v] < range_) ++record.touching;
+        if (cut_counts_[v] > 0) ++record.truncated;
+        if (cut_counts_[count + v] > 0) ++record.lost;
+        if (nearest_[v] < kFar)
+            record.least_distance =
+                std::min(record.least_distance, static_cast<double>(nearest_[v]));
+    }
+    if (record.truncated > 0)
+        record.substeps_wanted = static_cast<std::uint32_t>(substeps_wanted());
+    return record;
+}
+
+/// So many that vertices which were taken back go no further in one than contacts let them: planes
+/// leave them a good part of the gap before them, and from half of the thickness on they are pushed
+/// in time.
+int ContactResponse::substeps_wanted() const {
+    constexpr double kPart = 0.8;
+    double most = 0.0;
+    for (int v = 0; v < model_.vertex_count(); ++v) {
+        const auto i = static_cast<std::size_t>(v);
+        if (cut_counts_[i] == 0) continue;
+        const Vec3 along = motion_.last_velocity(v);
+        const double speed = length(to_vec3((*model_.velocities)[i]) - along);
+        const double gap = static_cast<double>(std::max(nearest_[i], 0.5f * range_));
+        most = std::max(most, speed / (kPart * gap));
+    }
+    const double substeps = std::ceil(most * model_.scene.dt);
+    return std::max(model_.scene.substeps, static_cast<int>(std::min(substeps, 1e6)));
 }
 
 std::pair<int, int> ContactResponse::vertices(int first_strip, int end_strip) const {

@@ -8,11 +8,15 @@
 #include "runtime/planning/regions.h"
 #include "runtime/row_table.h"
 #include "runtime/step.h"
+#include "runtime/trace/records.h"
+#include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
 #include "simulation/contact/pairs.h"
 #include "simulation/model/model.h"
 
 namespace weft {
+
+class Executor;
 
 /// What bodies do where they touch each other or themselves: finds contacts at a substep's begin,
 /// pushes bodies apart in every iteration, and has the last word about where vertices may be. See
@@ -25,6 +29,12 @@ public:
     std::vector<const TaskBody*> bodies() const;
     std::vector<std::string> kinds() const;
     std::vector<RowTable*> tables();
+
+    /// What bodies do together in the frame that is to come.
+    CommonMotion& motion() { return motion_; }
+    /// Whether a frame that has just run went another way than was foreseen; then it has to be done
+    /// again, with less foreseen.
+    bool revise(Executor& executor);
 
     /// Behind what begins a substep: where contacts are to be looked for.
     void add_begin(std::vector<Launch>& launches, Buffer<float4>& targets);
@@ -57,8 +67,11 @@ public:
     /// What a frame tells of itself; the host's copy.
     Buffer<int>& cut_counts() { return cut_counts_; }
     Buffer<float>& nearest() { return nearest_; }
-    /// What is to be told of a frame whose cut_counts() and nearest() the host has; empty: nothing.
+    // Of a frame whose cut_counts() and nearest() the host has:
+    /// what is to be told; empty: nothing;
     std::string trouble() const;
+    /// what there was to do.
+    ContactRecord account();
 
     /// [vertices] whom the last truncation took back: not 0.
     Buffer<int>& cut() { return cut_; }
@@ -88,12 +101,16 @@ private:
     Launch truncation(Buffer<float4>& positions, float soft);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
+    int substeps_wanted() const;
 
     Model& model_;
     float range_, floor_;
+    float friction_, creep_;  ///< 0: none; [m] see kernels/contact/friction.h
     Buffer<float4> anchors_, goals_;
     Buffer<float> stiffness_;
     ContactPairs pairs_;
+    CommonMotion motion_;
+    Buffer<float> quiet_;  ///< [vertices] how far each may get before a triangle could turn over
     Incidence incidence_;
     int fill_kind_;
     RowTable planes_table_, contacts_;
@@ -102,7 +119,6 @@ private:
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
-    Buffer<float> still_;  ///< [1] how far pins go that stay where they are
     Buffer<float4> snapshots_;
     TaskBody fill_;
     ContactEnergy energy_;

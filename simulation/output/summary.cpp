@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -102,6 +103,32 @@ nlohmann::ordered_json convergence_json(const RunSummary& summary) {
             {"frames", summary.estimates}};
 }
 
+std::string contact_text(const RunSummary::Contact& contact) {
+    std::string text = fmt::format(
+        "up to {} pairs, {} vertices nearer than the thickness, least distance {:.3g} m",
+        contact.pairs, contact.touching, contact.least_distance);
+    if (contact.redone > 0) text += fmt::format("; {} frames run again", contact.redone);
+    if (contact.truncated == 0) return text;
+    return text + fmt::format("; {} vertices taken back in frame {}: some {} substeps would do",
+                              contact.truncated, contact.truncated_frame, contact.substeps_wanted);
+}
+
+nlohmann::ordered_json contact_json(const RunSummary::Contact& contact) {
+    return {{"pairs", contact.pairs},
+            {"touching", contact.touching},
+            {"truncated", contact.truncated},
+            {"truncated_frame", contact.truncated_frame},
+            {"lost", contact.lost},
+            {"substeps_wanted", contact.substeps_wanted},
+            {"redone_frames", contact.redone},
+            {"least_distance", contact.least_distance}};
+}
+
+RunSummary::Contact contact_from(const nlohmann::json& json) {
+    return {json.at(0), json.at(1), json.at(2), json.at(3),
+            json.at(4), json.at(5), json.at(6), json.at(7)};
+}
+
 std::string energies_text(const RunSummary& summary) {
     std::string text;
     for (auto it = summary.energies.rbegin(); it != summary.energies.rend(); ++it) {
@@ -144,6 +171,7 @@ void SummaryBuilder::add(const FrameRecord& frame) {
     for (std::size_t i = 0; i < device_count_; ++i) summary_.devices[i].busy += frame.busy.at(i);
     set_energies(frame);
     add_strain(frame);
+    add_contact(frame);
     if (std::isfinite(frame.relative_error)) {
         estimates_.push_back({frame.frame, frame.relative_error});
     }
@@ -167,6 +195,23 @@ void SummaryBuilder::add_strain(const FrameRecord& frame) {
     }
     summary_.strain_max = std::max(summary_.strain_max, frame.strain_max);
     summary_.strain_rms_at_end = frame.strain_rms;
+}
+
+void SummaryBuilder::add_contact(const FrameRecord& frame) {
+    for (const ContactRecord& record : frame.contacts) {
+        if (!summary_.contact) {
+            summary_.contact.emplace().least_distance = std::numeric_limits<double>::infinity();
+        }
+        RunSummary::Contact& all = *summary_.contact;
+        if (record.truncated > all.truncated) all.truncated_frame = frame.frame;
+        all.pairs = std::max(all.pairs, record.pairs);
+        all.touching = std::max(all.touching, record.touching);
+        all.truncated = std::max(all.truncated, record.truncated);
+        all.lost = std::max(all.lost, record.lost);
+        all.substeps_wanted = std::max(all.substeps_wanted, record.substeps_wanted);
+        all.redone += record.redone > 0 ? 1 : 0;
+        all.least_distance = std::min(all.least_distance, record.least_distance);
+    }
 }
 
 void SummaryBuilder::set_energies(const FrameRecord& frame) {
@@ -220,6 +265,12 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
         frames.push_back({f.start, f.end, f.planned, f.measured, f.lower_bound, f.parts});
     nlohmann::json estimates = nlohmann::json::array();
     for (const Estimate& e : estimates_) estimates.push_back({e.frame, e.relative_error});
+    nlohmann::json contact;
+    if (summary_.contact) {
+        const RunSummary::Contact& c = *summary_.contact;
+        contact = {c.pairs, c.touching,        c.truncated, c.truncated_frame,
+                   c.lost,  c.substeps_wanted, c.redone,    c.least_distance};
+    }
     return nlohmann::json::to_cbor({{"simulated_time", summary_.simulated_time},
                                     {"transferred_bytes", summary_.transferred_bytes},
                                     {"settings", summary_.settings},
@@ -228,6 +279,7 @@ std::vector<std::uint8_t> SummaryBuilder::save() const {
                                     {"strain",
                                      {summary_.strain_rms, summary_.strain_frame,
                                       summary_.strain_max, summary_.strain_rms_at_end}},
+                                    {"contact", std::move(contact)},
                                     {"warnings", summary_.warnings},
                                     {"estimates", std::move(estimates)},
                                     {"devices", std::move(devices)},
@@ -248,6 +300,8 @@ void SummaryBuilder::restore(std::span<const std::uint8_t> saved) {
         strain.at(1).get_to(summary_.strain_frame);
         strain.at(2).get_to(summary_.strain_max);
         strain.at(3).get_to(summary_.strain_rms_at_end);
+        const auto& contact = json.at("contact");
+        if (!contact.is_null()) summary_.contact = contact_from(contact);
         for (const auto& e : json.at("estimates")) estimates_.push_back({e.at(0), e.at(1)});
         for (const auto& d : json.at("devices"))
             restore_device({d.at(0), d.at(1), d.at(2), d.at(3)});
@@ -314,6 +368,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["strain_max"] = summary.strain_max;
     json["strain_rms_at_end"] = summary.strain_rms_at_end;
     json["relative_error_estimate"] = convergence_json(summary);
+    if (summary.contact) json["contact"] = contact_json(*summary.contact);
     json["state_hash"] = summary.state_hash;
     json["files"] = files;
     json["command"] = summary.command;
@@ -348,6 +403,7 @@ std::string to_text(const RunSummary& summary) {
     line(text, "transfers", bytes_text(summary.transferred_bytes));
     line(text, "energy", energies_text(summary));
     line(text, "strain of edges", strain_text(summary));
+    if (summary.contact) line(text, "contact", contact_text(*summary.contact));
     line(text, "convergence", convergence_text(summary));
     line(text, "state hash", summary.state_hash.empty() ? "not known" : summary.state_hash);
     for (const auto& [what, path] : summary.files) line(text, what, path);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,6 +24,18 @@ struct RunSummary {
         double busy = 0.0;         ///< time spent in tasks, all frames [s]
         double utilisation = 0.0;  ///< busy / measured makespan of all frames
         double share = 1.0;        ///< of its team, of which one works at a time: 1 / its devices
+    };
+
+    /// What contact did; the most of any frame where nothing else is said.
+    struct Contact {
+        std::uint64_t pairs = 0;
+        std::uint32_t touching = 0;         ///< vertices
+        std::uint32_t truncated = 0;        ///< vertices,
+        std::size_t truncated_frame = 0;    ///< in this frame
+        std::uint32_t lost = 0;             ///< vertices
+        std::uint32_t substeps_wanted = 0;  ///< 0: nobody was taken back
+        std::size_t redone = 0;             ///< frames that were run again
+        double least_distance = 0.0;        ///< of all frames [m]; infinite: nothing was near
     };
 
     std::string scene;
@@ -54,6 +67,7 @@ struct RunSummary {
     double relative_error = 0.0;        ///< median
     double worst_relative_error = 0.0;  ///< and in the worst frame,
     std::size_t worst_error_frame = 0;  ///< which is this one
+    std::optional<Contact> contact;     ///< none: nothing touches anything
     std::vector<std::string> warnings;  ///< what to doubt in the results
     std::vector<std::string> losses;    ///< devices that failed in mid-run, and why
     bool finished = false;              ///< all frames of the scene are done
@@ -95,6 +109,7 @@ private:
     void restore_device(const RunSummary::Device& device);
     void set_energies(const FrameRecord& frame);
     void add_strain(const FrameRecord& frame);
+    void add_contact(const FrameRecord& frame);
 
     RunSummary summary_;
     std::vector<std::string> energy_names_;

@@ -126,7 +126,7 @@ public:
             substep_.add_sum(step, momentum_, region, after(iterations_), iterations_);
         }
         for (const Region& region : regions) add_velocities(step, region);
-        substep_.add_measurements(step, regions, iterations_ - 1);
+        substep_.add_measurements(step, regions, iterations_);
         step.seal();
         return step;
     }

@@ -31,8 +31,10 @@ void refuse_contact(const Scene& scene) {
                         ": [contact] does not go with [[seam]] and [[attachment]] yet: it "
                         "would push apart what they tie together");
     }
-    if (scene.contact->friction) {
-        throw UserError(path + ": contact.friction is not there yet; leave it out");
+    if (method == Method::kXpbd && scene.contact->friction.value_or(0.0) > 0.0) {
+        throw UserError(path +
+                        ": contact.friction is not there yet for xpbd; leave it out, or take "
+                        "solver.method = \"vbd\", \"sosd\" or \"jpgd\"");
     }
     if (scene.solver.tolerance > 0.0) {
         throw UserError(path + ": solver.tolerance knows nothing of [contact] yet; leave it out");

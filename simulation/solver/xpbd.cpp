@@ -277,7 +277,7 @@ private:
     std::unique_ptr<ContactResponse> contact_;       ///< null: none
     std::unique_ptr<ContactProjection> projection_;  ///< likewise
     TaskBody predict_, velocities_;
-    TaskBody push_;  ///< empty: no contact
+    TaskBody push_;              ///< empty: no contact
     std::vector<Group> groups_;  ///< in the order in which they are projected
 };
 

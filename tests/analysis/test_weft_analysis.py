@@ -55,6 +55,7 @@ def test_tables_by_frame(finished):
         one = trace.table("executions", frame=7)
         assert numpy.array_equal(one, every[every["frame"] == 7])
         assert len(one) == 4 * len(trace.table("plan", frame=7))
+        assert list(trace.table("contacts", frame=7)["pairs"]) == [1007]
         assert len(trace.table("no such table")) == 0
 
 

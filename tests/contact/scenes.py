@@ -93,6 +93,23 @@ def fast_sheets(frames=40):
             + cloth("high", grid(0.2, 0.2, 12, 12), "translate = [0.01, 0.005, 0.003]"))
 
 
+def pile(name, count, place, sides=8, gap=0.005):
+    """Free sheets over each other."""
+    x, y, z = place
+    return "".join(cloth(f"{name}{i}", grid(0.15, 0.15, sides, sides),
+                         f"rotate = [0, 1, 0, {9 * i}]\ntranslate = [{x}, {y + gap * i}, {z}]")
+                   for i in range(count))
+
+
+def landing(frames=70):
+    """A pile falls onto a floor, and another one onto it, at 6 and 7 m/s."""
+    push = 3.0 / (5 * SUBSTEP)
+    extra = f"gravity_keyframes = [[0, 0, {-push!r}, 0], [{4.5 * SUBSTEP!r}, 0, {-push!r}, 0], " \
+            f"[{5.5 * SUBSTEP!r}, 0, -9.81, 0]]"
+    return (head(frames, extra=extra) + cloth("floor", grid(0.3, 0.3, 13, 13), HELD)
+            + pile("low", 4, (0, 0.1, 0)) + pile("high", 3, (0.02, 0.25, 0.01)))
+
+
 def fold(frames=300):
     """An edge is laid onto the opposite one, and pressed down."""
     end = frames * SUBSTEP
@@ -166,6 +183,7 @@ SHORT = {
     "twist": twist(200),
     "needle": needle(),
     "fast_sheets": fast_sheets(),
+    "landing": landing(),
     "fold": fold(200),
     "pressed_blocks": pressed_blocks(100),
     "knife": knife(),

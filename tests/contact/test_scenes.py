@@ -6,6 +6,7 @@ import os
 import pathlib
 import subprocess
 
+import h5py
 import pytest
 
 import scenes
@@ -25,11 +26,12 @@ if os.environ.get("WEFT_LONG"):
     CASES += [(f"long_{name}", text) for name, text in scenes.LONG.items()]
 
 
-def simulate(folder, text, *arguments):
+def simulate(folder, text, *arguments, trace=False):
     (folder / "scene.toml").write_text(text)
     (folder / "sphere.obj").write_text(scenes.sphere_mesh())
+    output = [] if trace else ["--no-trace"]
     result = subprocess.run([WEFT, "run", "scene.toml", "--device", "cpu/1", "--plan", "single",
-                             "--no-trace", "--out", "out", "--json", *arguments],
+                             *output, "--out", "out", "--json", *arguments],
                             cwd=folder, capture_output=True, text=True, timeout=1200)
     assert result.returncode == 0, result.stderr
     out = pathlib.Path(folder) / "out"
@@ -44,6 +46,33 @@ def test_nothing_passes(tmp_path, text):
     assert oracle.steps_that_collide(run) == []
     if "sheet9" in text:  # a stack stays one
         assert oracle.are_in_order(run)
+
+
+def test_piles_that_fall_in_long_frames_stay_whole(tmp_path):
+    """Ten substeps a frame: where bodies will be has to be foreseen over all of them."""
+    text = scenes.landing(14).replace(f"dt = {scenes.SUBSTEP!r}\nsubsteps = 1",
+                                      f"dt = {10 * scenes.SUBSTEP!r}\nsubsteps = 10")
+    assert "substeps = 10" in text
+    run, summary = simulate(tmp_path, text)
+    assert oracle.frames_that_cross(run) == []
+    assert oracle.are_in_order(run)
+    assert summary["contact"]["lost"] == 0
+
+
+def test_the_trace_says_what_contact_did(tmp_path):
+    run, summary = simulate(tmp_path, scenes.fast_sheets(8), trace=True)
+    with h5py.File(tmp_path / "out/trace.h5") as trace:
+        table = trace["contacts"][:]
+        units = dict(zip(trace["contacts"].dtype.names, trace["contacts"].attrs["units"]))
+    assert list(table["frame"]) == list(range(8)) and units["least_distance"] == "m"
+    assert table["least_distance"][0] == pytest.approx(0.005, rel=1e-3)
+    assert table["truncated"].max() == summary["contact"]["truncated"] > 0
+    assert table["rows"].max() > 0 and (table["pairs"] > 0).all()
+    # 10 m/s through 5 mm per substep of 1/600 s, of which planes leave 0.8.
+    assert table["substeps_wanted"][0] >= 1
+    assert summary["contact"]["substeps_wanted"] >= 3
+    vertices = len(run.positions[0])
+    assert (table["touching"] <= vertices).all() and table["touching"].max() > 0
 
 
 @pytest.mark.parametrize("name", scenes.TOO_FAST)

@@ -175,9 +175,17 @@ void tilt_patches_case(KernelCase& c) {
     Boxes boxes(c, "boxes", c.items, 0.1f);
     auto& quiet = c.add<float>("quiet", c.items);
     for (float& limit : quiet.span()) limit = c.random.real(0.02f, 0.06f);
+    auto& goals = c.add<float4>("goals", 30);
+    for (int p = 0; p < 30; ++p) {
+        const float4 off = c.random.point(0.006f);
+        goals[at(p)] = {anchors[at(p)].x + off.x + 0.1f, anchors[at(p)].y + off.y,
+                        anchors[at(p)].z + off.z, 1.0f};
+    }
+    auto& foresees = add_numbers(c, "foresees", 1, 2);
     auto& tilts = c.add<float4>("tilts", c.items);
-    c.launch = launch(kernels::tilt_patches, c.segments, anchors, begin, corners, boxes.high, quiet,
-                      tilts, faces);
+    auto& drifts = c.add<float4>("drifts", c.items);
+    c.launch = launch(kernels::tilt_patches, c.segments, anchors, goals, foresees, begin, corners,
+                      boxes.high, quiet, tilts, drifts, faces);
 }
 
 void enclose_primitives_case(KernelCase& c) {
@@ -213,8 +221,10 @@ void near_case(KernelCase& c) {
     auto& tilts = c.add<float4>("tilts", c.items);
     for (float4& tilt : tilts.span()) {
         tilt = {0.0f, c.random.integer(0, 3) == 0 ? -1.0f : 1.0f, 0.0f,
-                c.random.integer(0, 2) == 0 ? 0.0f : 1.0f};
+                static_cast<float>(c.random.integer(0, 2))};
     }
+    auto& drifts = add_points(c, "drifts", c.items);
+    for (float4& drift : drifts.span()) drift.w = c.random.real(0.0f, 1.0f);
     auto& begin = add_begins(c, "beside.begin", c.items, 1, 9);
     auto& beside = add_numbers(c, "beside", begin[at(c.items)], c.items);
     auto& vias = add_numbers(c, "vias", begin[at(c.items)], c.items);
@@ -228,8 +238,8 @@ void near_case(KernelCase& c) {
     c.launch =
         launch(kernels::find_near_patches, c.segments, roots.boxes.low, roots.boxes.high,
                roots.begin, blocks.boxes.low, blocks.boxes.high, blocks.begin, groups.boxes.low,
-               groups.boxes.high, groups.begin, boxes.low, boxes.high, tilts, begin, beside, vias,
-               bodies, held, table.rows, table.counts, table.needs, table.others, c.items,
+               groups.boxes.high, groups.begin, boxes.low, boxes.high, tilts, drifts, begin, beside,
+               vias, bodies, held, table.rows, table.counts, table.needs, table.others, c.items,
                roots.count, c.flavour == Flavour::kRandom ? 1 : 0, kInstance);
 }
 

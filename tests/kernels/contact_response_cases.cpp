@@ -2,7 +2,9 @@
 #include <array>
 
 #include "kernels/contact/begin.h"
+#include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
+#include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
@@ -17,6 +19,8 @@ namespace {
 constexpr float kSize = 0.3f;
 constexpr float kRange = 0.1f;
 constexpr int kRoom = 6;
+constexpr int kBodies = 4;
+constexpr int kSubsteps = 8;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -71,10 +75,40 @@ void begin_case(KernelCase& c) {
     auto& targets = add_points(c, "targets", c.items);
     auto& goals = c.add<float4>("goals", c.items);
     auto& anchors = c.add<float4>("anchors", c.items);
-    auto& led = c.add<float>("led", 1);
-    led[0] = 0.05f;
+    auto& bodies = add_indices(c, "bodies", c.items, kBodies);
+    auto& carried = add_points(c, "carried", kBodies * kSubsteps);
     c.launch = launch(kernels::begin_contacts, c.segments, positions, previous, targets, goals,
-                      anchors, led, 0.1f, 0.3f);
+                      anchors, bodies, carried, kBodies, 0.1f, 0.3f, kInstance);
+}
+
+/// Boxes of which most are within their fences.
+void strays_case(KernelCase& c) {
+    auto& low = add_points(c, "low", c.items);
+    auto& high = add_points(c, "high", c.items);
+    auto& bodies = add_indices(c, "bodies", c.items, kBodies);
+    auto& carried = add_points(c, "carried", kBodies * kSubsteps);
+    auto& chunks = add_indices(c, "chunks", c.items, kBodies);
+    auto& fences = add_points(c, "fences", 2 * kBodies * kSubsteps);
+    for (std::size_t f = 0; f < fences.count(); ++f) {
+        const float side = f / kBodies % 2 == 0 ? -1.0f : 1.0f;
+        float4& corner = fences[f];
+        corner = {corner.x + side, corner.y + side, corner.z + side, 0.0f};
+    }
+    auto& strays = add_indices(c, "strays", c.items, 2);
+    c.launch = launch(kernels::find_strays, c.segments, low, high, bodies, carried, chunks, fences,
+                      strays, kBodies, kBodies, kInstance);
+}
+
+void unquiet_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& anchors = add_points(c, "anchors", c.items);
+    for (float4& a : anchors.span()) a.w = c.random.real(0.0f, 0.3f);
+    auto& goals = add_points(c, "goals", c.items);
+    auto& quiet = c.add<float>("quiet", c.items);
+    for (float& limit : quiet.span()) limit = c.random.real(0.0f, 2.0f);
+    auto& unquiet = add_indices(c, "unquiet", c.items, 2);
+    c.launch = launch(kernels::find_unquiet, c.segments, positions, anchors, goals, quiet, unquiet,
+                      kInstance);
 }
 
 void count_case(KernelCase& c) {
@@ -136,7 +170,8 @@ void gather_case(KernelCase& c) {
     c.launch = launch(kernels::gather_contacts, c.segments, positions, snapshots, vertices,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, sums, c.items, c.items, kIteration);
+                      contacts.measures, sums, c.items, c.items, kIteration,
+                      c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
 void snapshot_case(KernelCase& c) {
@@ -272,7 +307,8 @@ void lags_case(KernelCase& c) {
 }
 
 const bool added =
-    add_case("begin_contacts", begin_case) && add_case("count_cut", count_case) &&
+    add_case("begin_contacts", begin_case) && add_case("find_strays", strays_case) &&
+    add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
     add_case("truncate_contacts", truncate_case) && add_case("gather_contacts", gather_case) &&
     add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
     add_case("add_lags_and_contacts", lags_case);

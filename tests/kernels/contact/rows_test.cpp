@@ -89,10 +89,10 @@ public:
         Buffer<int> vertices("vertices", kVertices);
         for (int v = 0; v < kVertices; ++v) vertices[at(v)] = v;
         Buffer<float> sums("sums", 9 * kVertices);
-        const Launch gather =
-            launch(kernels::gather_contacts, Segments{}, positions, positions, vertices,
-                   table_.rows(), table_.counts(), *corners_[0], *corners_[1], *corners_[2],
-                   *corners_[3], normals_, weights_, measures_, sums, kVertices, 0, kIteration);
+        const Launch gather = launch(kernels::gather_contacts, Segments{}, positions, positions,
+                                     vertices, table_.rows(), table_.counts(), *corners_[0],
+                                     *corners_[1], *corners_[2], *corners_[3], normals_, weights_,
+                                     measures_, sums, kVertices, 0, kIteration, 0.0f, 1.0f);
         run_on_host(gather, gather.kernel->scalar, 0, kVertices);
         std::vector<Vec3> gradient;
         for (std::size_t v = 0; v < kVertices; ++v) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernels/contact/fill.h"
 #include "kernels/contact/truncate.h"
 #include "runtime/row_table.h"
 #include "simulation/mesh/vec3.h"
@@ -118,6 +119,24 @@ TEST(Truncation, MakesWayForAPlaneThatComes) {
         truncate({0, 0, 0, 0.1f}, {0.05, -0.02, 0}, {{0, 1, 0, -0.03f}, {0, -1, 0, 0.05f}});
     EXPECT_NEAR(along.at.y, 0.03, 1e-4);
     EXPECT_NEAR(along.at.x, 0.05, 1e-4);
+}
+
+/// Where planes end: B begins at 0 and A at the distance, both come nearer by what they are led.
+TEST(Planes, EndBeforeWhatTheSceneLeads) {
+    Random random(6);
+    constexpr float kDistance = 0.01f;
+    for (int trial = 0; trial < 3000; ++trial) {
+        const float led = random.real(0.0f, 5.0f * kDistance);
+        const float own = random.real(0.0f, 5.0f * kDistance);
+        const float least = random.real(1e-4f, 0.25f * kDistance);
+        const float before_b = kernels::plane_end(kDistance, own, led, 0.0f, led, least);
+        EXPECT_GT(before_b, led) << "B goes there";
+        const float before_a = kernels::plane_end(kDistance, led, own, led, 0.0f, least);
+        EXPECT_LT(before_a, kDistance - led) << "A goes there";
+        const float free = kernels::plane_end(kDistance, own, led, 0.0f, 0.0f, least);
+        EXPECT_GT(free, 0.0f);
+        EXPECT_LT(free, kDistance);
+    }
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ RunDescription describe(const Shape& shape) {
     run.kinds = {"predict", "spring", "spring seam", "bending", "velocity"};
     run.energies = {"spring", "bending"};
     run.has_transfers = shape.transfers;
+    run.has_contacts = shape.contacts;
     return run;
 }
 
@@ -164,6 +165,10 @@ FrameRecord frame(const Shape& shape, std::uint32_t number) {
     record.substeps = 4 + number;
     record.iterations = 8 + number;
     record.relative_error = 0.03 * number;
+    if (shape.contacts) {
+        record.contacts = {{1000 + number, 3000 + number, 50 + number, 10 + number, number,
+                            number % 2, 20 + number, 1e-3 * number}};
+    }
     return record;
 }
 

@@ -12,6 +12,7 @@ struct Shape {
     std::uint32_t substeps = 4;
     std::uint32_t iterations = 8;
     bool transfers = true;
+    bool contacts = true;
 };
 
 RunDescription describe(const Shape& shape);

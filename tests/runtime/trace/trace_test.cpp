@@ -112,6 +112,16 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.costs[3].per_item, expected.costs[3].per_item);
     ASSERT_EQ(frame.transfers.size(), expected.transfers.size());
     EXPECT_EQ(frame.transfers[5].start, expected.transfers[5].start);
+    ASSERT_EQ(frame.contacts.size(), 1U);
+    const ContactRecord& contact = frame.contacts.front();
+    EXPECT_EQ(contact.pairs, 1007U);
+    EXPECT_EQ(contact.rows, 3007U);
+    EXPECT_EQ(contact.touching, 57U);
+    EXPECT_EQ(contact.truncated, 17U);
+    EXPECT_EQ(contact.lost, 7U);
+    EXPECT_EQ(contact.redone, 1U);
+    EXPECT_EQ(contact.substeps_wanted, 27U);
+    EXPECT_EQ(contact.least_distance, 1e-3 * 7);
 }
 
 TEST_F(Trace, FramesOfOneDivisionShareTheirGraph) {
@@ -152,6 +162,16 @@ TEST_F(Trace, HasNoTransfersTableWhereDevicesShareMemory) {
     const hdf5::Handle opened = hdf5::open_to_read(file().string());
     EXPECT_FALSE(hdf5::exists(opened.id(), "transfers"));
     EXPECT_TRUE(hdf5::exists(opened.id(), "executions"));
+}
+
+TEST_F(Trace, HasNoContactsTableWhereNothingTouches) {
+    write({.contacts = false}, 2);
+    const TraceReader reader(file());
+    EXPECT_FALSE(reader.run().has_contacts);
+    EXPECT_TRUE(reader.frame(1).contacts.empty());
+    const hdf5::Session session;
+    const hdf5::Handle opened = hdf5::open_to_read(file().string());
+    EXPECT_FALSE(hdf5::exists(opened.id(), "contacts"));
 }
 
 TEST_F(Trace, WithoutFinishIsUnfinishedButComplete) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "runtime/error.h"
 #include "simulation/contact/response.h"
 #include "simulation/contact/stiffness.h"
 #include "simulation/diagnostics.h"
@@ -150,6 +151,17 @@ TEST_P(ContactEnergyOf, ShorterStepsStoreMore) {
     EXPECT_GT(after + run.energies().total(), had);
     EXPECT_GT(after, before - 1e-6);
     EXPECT_TRUE(run.troubles().empty());
+}
+
+TEST(Contact, NewtonSaysWhichSolversKnowIt) {
+    Scene scene = parse_scene(kOverATriangle, "test.toml");
+    scene.solver.method = Method::kNewton;
+    try {
+        ManualRun run(scene);
+        FAIL() << "it runs";
+    } catch (const UserError& error) {
+        EXPECT_NE(std::string(error.what()).find("\"xpbd\""), std::string::npos) << error.what();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ContactEnergyOf,

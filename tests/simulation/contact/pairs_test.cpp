@@ -53,7 +53,7 @@ public:
         std::ranges::copy(mesh.strips.begin, strip_begin_.data());
         const PairSettings settings{mesh.thickness, 0.1f * mesh.thickness, mesh.self, room};
         pairs = std::make_unique<ContactPairs>(make_surface(mesh.mesh, mesh.strips), mesh.mesh.rest,
-                                               anchors_, strips_, settings, 0);
+                                               anchors_, anchors_, strips_, settings, 0);
         std::vector<Device*> pointers;
         for (const auto& device : devices_) pointers.push_back(device.get());
         executor_ = std::make_unique<Executor>(pointers, pairs->bodies());

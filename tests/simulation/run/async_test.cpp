@@ -320,6 +320,21 @@ TEST_P(AsyncBesideOpenCl, InMemoryOfItsOwn) {
     expect_same_on_one_device(*simulation(std::move(devices), in_two(), ""));
 }
 
+/// Small enough for oclgrind, which cannot run packs of 8: copies, merges and slots in one substep.
+TEST_P(AsyncBesideOpenCl, OneSubstepOfOneLane) {
+    if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    scene_.substeps = 1;
+    const auto expected = simulation(cpus(2), in_two(), "settle=0");
+    expected->advance();
+    Devices devices = cpus(1);
+    DeviceOptions options;
+    options.opencl_lanes = 1;
+    for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
+    const auto run = simulation(std::move(devices), in_two(), "settle=0");
+    run->advance();
+    EXPECT_EQ(run->hash(), expected->hash());
+}
+
 /// A core and two parts of an OpenCL device, more than there may be cores: twenty times the same.
 TEST_P(AsyncBesideOpenCl, ThreeDevicesAgainAndAgain) {
     if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";

@@ -4,6 +4,7 @@
 
 #include "runtime/planning/planned_executor.h"
 #include "runtime/tbb/cpu_device.h"
+#include "simulation/contact/response.h"
 #include "simulation/output/state_hash.h"
 
 namespace weft::test {
@@ -58,7 +59,8 @@ void ManualRun::run_substeps(int substeps) {
 
 void ManualRun::run_frame(const Division& division, int substeps) {
     model->place(frame_ * model->scene.dt);
-    for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
+    if (auto* contact = solver->contact()) contact->motion().place(frame_ * model->scene.dt);
+    hand_over_placed();
     std::vector<std::vector<std::byte>> before;
     for (BufferStorage* buffer : state()) {
         const auto* bytes = static_cast<const std::byte*>(buffer->host());
@@ -67,17 +69,32 @@ void ManualRun::run_frame(const Division& division, int substeps) {
     run_step(division, substeps);
     bool may_sweep = redoes_frames;
     for (;;) {
-        const bool was_cut_short = grow_tables(solver->tables(), *executor_);
-        if (!was_cut_short && !(may_sweep && model->outran_obstacles())) break;
-        may_sweep = may_sweep && was_cut_short;
+        const bool has_to_be_redone =
+            grow_tables(solver->tables(), *executor_) || revises_contact();
+        if (!has_to_be_redone && !(may_sweep && model->outran_obstacles())) break;
+        may_sweep = may_sweep && has_to_be_redone;
         for (std::size_t b = 0; b < before.size(); ++b) {
             std::memcpy(state()[b]->host(), before[b].data(), before[b].size());
             changed(*state()[b]);
         }
-        for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
+        hand_over_placed();
         run_step(division, substeps);
     }
     ++frame_;
+}
+
+void ManualRun::hand_over_placed() {
+    for (BufferStorage* buffer : model->placed_buffers()) changed(*buffer);
+    ContactResponse* contact = solver->contact();
+    if (contact == nullptr) return;
+    for (BufferStorage* buffer : contact->motion().placed_buffers()) changed(*buffer);
+}
+
+bool ManualRun::revises_contact() {
+    ContactResponse* contact = solver->contact();
+    if (contact == nullptr || !contact->revise(*executor_)) return false;
+    ++unforeseen;
+    return true;
 }
 
 void ManualRun::run_step(const Division& division, int substeps) {

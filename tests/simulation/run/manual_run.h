@@ -40,10 +40,14 @@ public:
     std::unique_ptr<Solver> solver;
     /// As Simulation does where vertices outran the obstacles. (Tables always grow.)
     bool redoes_frames = true;
+    /// Frames that ran again because bodies went where contact had not foreseen it.
+    int unforeseen = 0;
 
 private:
     void run_frame(const Division& division, int substeps);
     void run_step(const Division& division, int substeps);
+    bool revises_contact();
+    void hand_over_placed();
     std::vector<BufferStorage*> state();
 
     std::vector<std::unique_ptr<Device>> devices_;

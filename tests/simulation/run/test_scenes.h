@@ -294,4 +294,28 @@ young = 2.0e4
 poisson = 0.3
 )";
 
+/// The same with friction, and two sheets that fall beside it, one over the other, faster in the end
+/// than they are apart.
+inline const std::string kRubbing = [] {
+    std::string text = kTouching + R"(
+[[cloth]]
+name = "low"
+grid = { size = [0.3, 0.3], resolution = [8, 8] }
+translate = [1.0, 0.0, 0.0]
+density = 0.2
+stretch = { stiffness = 300.0 }
+
+[[cloth]]
+name = "high"
+grid = { size = [0.3, 0.3], resolution = [8, 8] }
+rotate = [0, 1, 0, 20]
+translate = [1.0, 0.003, 0.0]
+density = 0.2
+stretch = { stiffness = 300.0 }
+)";
+    const std::string before = "thickness = 0.01\n";
+    text.insert(text.find(before) + before.size(), "friction = 0.4\n");
+    return text;
+}();
+
 }  // namespace weft::test

@@ -163,11 +163,9 @@ pins = { edges = ["x-"] }
         frame = simulation.advance();
         most = std::max(most, frame.strain_rms);
     }
-    if (GetParam() == Method::kNewton)
-        EXPECT_LT(most, 0.02);
-    else
-        EXPECT_GT(most, 0.05) << "the scene is a case";
-    EXPECT_EQ(simulation.troubles().empty(), most < 0.1);
+    const bool gives_way = GetParam() == Method::kVbd;
+    EXPECT_GT(most, gives_way ? 0.1 : 0.0) << "the scene is a case";
+    EXPECT_EQ(simulation.troubles().empty(), most < 0.1) << most;
 }
 
 /// A cloth that its pins tear along faster than waves run in it: there is energy for anything, and
@@ -201,21 +199,24 @@ dt = 0.016666667
 substeps = 4
 [solver]
 iterations = 1
-[[cloth]]
-grid = { size = [0.2, 0.6], resolution = [9, 25] }
-density = 2.0
-stretch = { stiffness = 1.0e5 }
-[[cloth.pins]]
-edges = ["z-"]
-[[cloth.pins]]
-edges = ["z+"]
-motion = { velocity = [0.0, 0.0, -0.2], angular_velocity = 10.0, axis = [0.0, 0.0, 1.0] }
+[[solid]]
+grid = { size = [0.6, 0.1, 0.1], resolution = [13, 3, 3] }
+density = 1000.0
+young = 1.0e6
+poisson = 0.495
+[[solid.pins]]
+faces = ["x-"]
+[[solid.pins]]
+faces = ["x+"]
+motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
 )");
+    const bool gives_way = GetParam() == Method::kVbd || GetParam() == Method::kJpgd;
     Simulation simulation = simulation_of(scene, OnTrouble::kReport);
     double most = 0.0;
     while (simulation.frame() < scene.frames) {
         most = std::max(most, simulation.advance().strain_rms);
     }
+    EXPECT_GT(most, gives_way ? 0.3 : 0.0) << "the scene is a case";
     EXPECT_EQ(simulation.troubles().empty(), most < 0.2) << most;
 }
 

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "runtime/buffer.h"
+#include "simulation/contact/interval_box.h"
+#include "simulation/contact/obstacle_boxes.h"
+#include "simulation/contact/surface.h"
+#include "simulation/model/model.h"
+
+namespace weft {
+
+/// What bodies near each other do together: one translation u for each group of bodies that may
+/// meet in a substep. Contact's planes and balls move with it (kernels/contact/begin.h), so that a
+/// pile that flies, however fast, is to contact a pile at rest. A group with a held vertex has
+/// u = 0, as has one that a convex obstacle may push, and what moves by less than an eighth of the
+/// thickness.
+///
+/// The groups of a frame's substeps are foreseen at its start, from the bodies' velocities and
+/// gravity. Different groups have fences that are apart (kernels/contact/fences.h): what leaves its
+/// own was not foreseen, and the frame has to be done again (revise()). So a wrong guess costs
+/// time, and no guarantee.
+///
+/// Likewise who may be pushed by what the scene leads: bodies that may meet it in the frame, and
+/// what they may meet.
+class CommonMotion {
+public:
+    /// thickness [m] of contact, margin: by how much boxes of patches go beyond the way that their
+    /// vertices make by inertia, and as the scene leads others [m]; foresees: that of ContactPairs
+    CommonMotion(const Model& model, const Surface& surface, double thickness, double margin,
+                 Buffer<int>& foresees);
+
+    /// Fills in the frame that begins at `time`, from the state at its start.
+    void place(double time);
+    /// After the frame, strays() and unquiet() being the host's: whether somebody left a fence, or
+    /// patches got loose that were taken for quiet. Then the frame has to be done again, and is
+    /// filled in with less foreseen: at last with all bodies as one group that stays where it is.
+    bool revise();
+    /// With which what is near a vertex moves together in the frame's last substep [m/s].
+    Vec3 last_velocity(int vertex) const;
+    std::vector<BufferStorage*> placed_buffers() { return {&carried_, &fences_, &foresees_}; }
+
+    int body_count() const { return static_cast<int>(bodies_.size()); }
+    int chunk_count() const { return static_cast<int>(chunks_.size()); }
+    Buffer<int>& body_of() { return body_of_; }     ///< [model vertices]
+    Buffer<float4>& carried() { return carried_; }  ///< [substeps * bodies] see begin.h
+    Buffer<int>& chunk_of() { return chunk_of_; }   ///< [patches]
+    Buffer<float4>& fences() { return fences_; }    ///< [substeps * 2 * chunks] see fences.h
+    Buffer<int>& strays() { return strays_; }       ///< [patches] written by the devices
+    Buffer<int>& unquiet() { return unquiet_; }     ///< [vertices] likewise; see quiet.h
+
+private:
+    struct Body {
+        double mass = 0.0;
+        bool is_held = false;
+        // Of the frame.
+        std::vector<Vec3> velocity{};  ///< [substeps] with which it would fall freely [m/s]
+        double led = 0.0;     ///< the farthest that the scene leads what may push its group [m]
+        int group = 0;        ///< of bodies that may meet in the frame
+        IntervalBox swept{};  ///< all that it may reach in the frame
+    };
+    /// Some patches of one body that follow each other.
+    struct Chunk {
+        int body = 0;
+        std::vector<int> vertices{};  ///< the model's, of all its triangles
+        bool falls = false;           ///< something of it is free
+        // Of the frame.
+        IntervalBox place{}, velocity{}, swept{};
+        double clearance = 0.0;  ///< that it may take beyond what it needs [m]
+    };
+    using Pair = std::pair<int, int>;
+    struct Groups {
+        std::vector<int> of;           ///< [bodies] the lowest of its group
+        std::vector<char> is_blocked;  ///< [bodies] by an obstacle
+    };
+
+    /// chunk_of: [patches]
+    void hold();
+    static std::vector<Chunk> make_chunks(const Model& model, const Surface& surface,
+                                          const std::vector<int>& chunk_of);
+    void make_bodies();
+    void add_up_gravity();
+    void look_at_bodies(double time);
+    std::vector<double> ways_of_held(double time) const;
+    void look_at_chunks();
+    void find_neighbours();
+    bool share_what_leads();
+    void find_clearance();
+    void place_substep(int substep, Groups& known);
+    /// Of bodies in groups: with which the group moves, 0 where it does not, or one is blocked.
+    std::vector<Vec3> common_velocities(int substep, const std::vector<int>& groups,
+                                        const std::vector<char>& is_blocked) const;
+    bool block(int substep, const std::vector<Vec3>& together,
+               const std::vector<IntervalBox>& boxes, std::vector<char>& is_blocked) const;
+    IntervalBox reached(const Chunk& chunk, int substep, Vec3 together) const;
+    std::vector<IntervalBox> reached(int substep, const std::vector<Vec3>& together) const;
+    std::vector<char> split_groups(const std::vector<int>& groups,
+                                   const std::vector<Vec3>& together) const;
+    void build_fences(int substep, const std::vector<char>& is_split,
+                      const std::vector<IntervalBox>& boxes);
+    void open_fences(int substep);
+    void carry(int substep, const std::vector<Vec3>& together);
+
+    const Model& model_;
+    double thickness_, margin_;
+    int substeps_;
+    std::vector<Body> bodies_;
+    std::vector<int> held_;  ///< vertices
+    std::vector<Chunk> chunks_;
+    ObstacleBoxes obstacles_;
+    std::vector<Pair> near_;             ///< chunks of different bodies that may meet in the frame
+    std::vector<Pair> in_the_way_;       ///< chunks, and obstacles that they may meet in the frame
+    std::vector<Vec3> gained_, fallen_;  ///< [substeps + 1] by gravity since the frame's start
+    Buffer<int>& foresees_;
+    Buffer<int> body_of_, chunk_of_, strays_, unquiet_;
+    Buffer<float4> carried_, fences_;
+};
+
+}  // namespace weft
