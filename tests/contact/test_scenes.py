@@ -50,7 +50,7 @@ def test_nothing_passes(tmp_path, text):
 
 def test_piles_that_fall_in_long_frames_stay_whole(tmp_path):
     """Ten substeps a frame: where bodies will be has to be foreseen over all of them."""
-    text = scenes.landing(14).replace(f"dt = {scenes.SUBSTEP!r}\nsubsteps = 1",
+    text = scenes.landing(7).replace(f"dt = {scenes.SUBSTEP!r}\nsubsteps = 1",
                                       f"dt = {10 * scenes.SUBSTEP!r}\nsubsteps = 10")
     assert "substeps = 10" in text
     run, summary = simulate(tmp_path, text)
