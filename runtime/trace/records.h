@@ -119,9 +119,9 @@ struct TransferRecord {
 
 /// What contact did in one frame.
 struct ContactRecord {
-    std::uint64_t pairs = 0;     ///< that might touch in a substep
-    std::uint64_t rows = 0;      ///< entries of vertices for those that might push
-    std::uint32_t touching = 0;  ///< vertices that a substep found nearer than the thickness
+    std::uint64_t pairs = 0;      ///< that might touch in a substep
+    std::uint64_t rows = 0;       ///< entries of vertices for those that might push
+    std::uint32_t touching = 0;   ///< vertices that a substep found nearer than the thickness
     std::uint32_t truncated = 0;  ///< vertices that were taken back in a substep
     std::uint32_t lost = 0;       ///< of these, found no place that all of their contacts allow
     std::uint32_t redone = 0;     ///< how often the frame was run again for contact

@@ -15,8 +15,7 @@ struct IntervalBox {
 
     void include(const IntervalBox& b) {
         low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
-        high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y),
-                std::max(high.z, b.high.z)};
+        high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
     }
     void include(Vec3 p) { include(IntervalBox{p, p}); }
     IntervalBox grown(double by) const { return {low - Vec3{by, by, by}, high + Vec3{by, by, by}}; }

@@ -90,7 +90,7 @@ void strays_case(KernelCase& c) {
     auto& chunks = add_indices(c, "chunks", c.items, kBodies);
     auto& fences = add_points(c, "fences", 2 * kBodies * kSubsteps);
     for (std::size_t f = 0; f < fences.count(); ++f) {
-        const float side = f / kBodies % 2 == 0 ? -1.0f : 1.0f;
+        const float side = f / kBodies % 2 == 0 ? -0.5f : 0.5f;
         float4& corner = fences[f];
         corner = {corner.x + side, corner.y + side, corner.z + side, 0.0f};
     }

@@ -294,8 +294,8 @@ young = 2.0e4
 poisson = 0.3
 )";
 
-/// The same with friction, and two sheets that fall beside it, one over the other, faster in the end
-/// than they are apart.
+/// The same with friction, and two sheets that fall beside it, one over the other, faster in the
+/// end than they are apart.
 inline const std::string kRubbing = [] {
     std::string text = kTouching + R"(
 [[cloth]]
