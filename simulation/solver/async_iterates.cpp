@@ -315,8 +315,9 @@ Step AsyncIterates::base_step(const Partition& partition) {
 /// Puts a map's steps into a Step.
 class AsyncIterates::Building {
 public:
-    Building(const AsyncIterates& solver, const Step& base, const Cells& cells)
-        : solver_(solver), base_(base), cells_(cells) {}
+    /// devices: of the map
+    Building(const AsyncIterates& solver, const Step& base, const Cells& cells, int devices)
+        : solver_(solver), base_(base), cells_(cells), devices_(devices) {}
 
     Step build(const scheduler::ExchangeMap& map) {
         for (const scheduler::ExchangeStep& step : map.steps) {
@@ -357,19 +358,26 @@ private:
         }
     }
 
+    /// A map's slots lie behind the iterates of its devices; there may be more iterates than these.
+    int place_of(int place) const {
+        return place < devices_ ? place : place - devices_ + solver_.iterates_.count();
+    }
+
     void add_exchange(const scheduler::ExchangeStep& step, std::size_t buffer, int begin, int end) {
         const Iterates& iterates = solver_.iterates_;
+        const int start = place_of(step.start);
+        const int from = place_of(step.from);
+        const int to = place_of(step.to);
         const int first = iterates.pieces().item(begin);
         const int last = iterates.pieces().item(end);
         if (first == last) return;
         const bool merges = step.kind == scheduler::ExchangeStep::Kind::kMerge;
-        const auto body =
-            solver_.exchanges_.find({buffer, merges ? step.start : kCopies, step.from, step.to});
+        const auto body = solver_.exchanges_.find({buffer, merges ? start : kCopies, from, to});
         WEFT_ASSERT(body != solver_.exchanges_.end());
         auto task = step_.add(*body->second, iteration_of(step), begin, end, step.device);
-        task.reads(iterates.in(buffer, step.from), first, last)
-            .updates(iterates.in(buffer, step.to), first, last);
-        if (merges) task.reads(iterates.in(buffer, step.start), first, last);
+        task.reads(iterates.in(buffer, from), first, last)
+            .updates(iterates.in(buffer, to), first, last);
+        if (merges) task.reads(iterates.in(buffer, start), first, last);
     }
 
     int iteration_of(const scheduler::ExchangeStep& step) const {
@@ -380,6 +388,7 @@ private:
     const AsyncIterates& solver_;
     const Step& base_;
     const Cells& cells_;
+    int devices_;
     Step step_;
 };
 
@@ -406,7 +415,7 @@ Step AsyncIterates::make_step(const Partition& partition) {
     const auto problem = problem_of(base, partition, cells);
     const auto map = map_of(problem);
     WEFT_ASSERT(scheduler::find_fault(problem, map).empty());
-    return Building(*this, base, cells).build(map);
+    return Building(*this, base, cells, problem.devices).build(map);
 }
 
 }  // namespace weft

@@ -118,6 +118,14 @@ TEST_P(Async, RunsAgainAndAgainAreTheSame) {
     }
 }
 
+/// As where devices of another team stand beside these, or one was lost.
+TEST_P(Async, IteratesThatNobodyHasChangeNothing) {
+    const std::string expected = hash_of(*simulation(cpus(2), in_two(), "window=3,settle=0"));
+    Division among_three = in_two();
+    among_three.strips.push_back(0);
+    EXPECT_EQ(hash_of(*simulation(cpus(3), among_three, "window=3,settle=0")), expected);
+}
+
 /// Asynchronous tasks read and write no iterate but their part's; what they wait for of others are
 /// tasks of the exchange.
 TEST_P(Async, TasksKeepToTheirOwn) {
