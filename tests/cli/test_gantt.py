@@ -120,7 +120,9 @@ def test_two_iterations_of_an_asynchronous_run(tmp_path, solver):
     assert len({y for _, _, y, _ in bars(picture)}) == 4  # two devices in each panel
     assert any("exchange" in name for name in names)
     heads = arrows(picture)
-    assert heads["#00823c"] > 1 and heads["#c81e1e"] > 1  # to either device; one is the legend's
+    assert heads["#00823c"] + heads["#c81e1e"] > 2  # more than those of the legend
+    whole_heads = arrows(whole)
+    assert whole_heads["#00823c"] > 1 and whole_heads["#c81e1e"] > 1  # to either device
     assert min(x for _, x, _, _ in bars(picture)) == pytest.approx(130.0)  # time begins with them
     assert "sheet: frame 7, substep 0, iterations 4 to 5" in texts(picture)
 

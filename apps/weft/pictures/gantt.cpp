@@ -98,13 +98,13 @@ bool Gantt::shows(const PlanRecord& task) const {
 void Gantt::start_at_zero(Panel& panel) const {
     double begin = std::numeric_limits<double>::infinity();
     for (const Bar& bar : panel.bars) {
-        if (bar.task != nullptr) begin = std::min(begin, bar.start);
+        if (bar.is_shown) begin = std::min(begin, bar.start);
     }
     if (!std::isfinite(begin)) return;
     for (Bar& bar : panel.bars) {
         bar.start -= begin;
         bar.end -= begin;
-        if (bar.task != nullptr) panel.end = std::max(panel.end, bar.end);
+        if (bar.is_shown) panel.end = std::max(panel.end, bar.end);
     }
     for (Copy& copy : panel.copies) {
         copy.start -= begin;
@@ -116,8 +116,8 @@ void Gantt::start_at_zero(Panel& panel) const {
 
 void Gantt::find_planned() {
     for (const PlanRecord& task : tasks_) {
-        planned_.bars.push_back({shows(task) ? &task : nullptr, task.device,
-                                 frame_.pace * task.start, frame_.pace * task.end});
+        planned_.bars.push_back(
+            {&task, task.device, frame_.pace * task.start, frame_.pace * task.end, shows(task)});
     }
     start_at_zero(planned_);
     planned_.title = "planned: " + milliseconds(planned_.end);
@@ -131,7 +131,7 @@ void Gantt::find_measured() {
             throw UserError(fmt::format("frame {}: its executions are damaged", frame_.frame));
         }
         const PlanRecord& task = tasks_[e.task];
-        if (shows(task)) measured_.bars[e.task] = {&task, e.device, e.start, e.end};
+        measured_.bars[e.task] = {&task, e.device, e.start, e.end, shows(task)};
     }
     for (const TransferRecord& t : frame_.transfers) {
         if (t.substep != part_.substep || t.from >= run_.devices.size() ||
@@ -209,7 +209,7 @@ void Gantt::draw_bars(Canvas& canvas, const Panel& panel) const {
     constexpr double kGap = 0.8;  // between neighbours, where they are wide enough for one
     constexpr double kFont = 10.0;
     for (const Bar& bar : panel.bars) {
-        if (bar.task == nullptr) continue;  // it did not run
+        if (!bar.is_shown) continue;
         const double left = x_of(bar.start);
         const double full = x_of(bar.end) - left;
         const double width = full > 4.0 * kGap ? full - kGap : std::max(full, 0.3);
@@ -226,13 +226,14 @@ void Gantt::draw_bars(Canvas& canvas, const Panel& panel) const {
     }
 }
 
+/// What comes from before the iterations that are drawn begins at the border.
 void Gantt::draw_dependencies(Canvas& canvas, const Panel& panel) const {
     if (!frame_.graph) return;
     for (const DependencyRecord& d : frame_.graph->dependencies) {
         if (d.carried != 0 || std::max(d.from, d.to) >= panel.bars.size()) continue;
         const Bar& from = panel.bars[d.from];
         const Bar& to = panel.bars[d.to];
-        if (from.task == nullptr || to.task == nullptr || from.device == to.device) continue;
+        if (from.task == nullptr || !to.is_shown || from.device == to.device) continue;
         draw_arrow_between(canvas, panel, from.device, from.end, to.device, to.start,
                            pick(kTargets, to.device), false);
     }

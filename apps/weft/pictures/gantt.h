@@ -38,6 +38,7 @@ private:
         std::uint32_t device = 0;
         double start = 0.0;
         double end = 0.0;
+        bool is_shown = false;
     };
     struct Copy {
         const TransferRecord* record = nullptr;
@@ -46,7 +47,7 @@ private:
     };
     struct Panel {
         std::string title;
-        std::vector<Bar> bars;  ///< by task number; without a task where it is not drawn
+        std::vector<Bar> bars;  ///< by task number; without a task where it did not run
         std::vector<Copy> copies;
         double end = 0.0;
         double top = 0.0;  ///< [pixels]
