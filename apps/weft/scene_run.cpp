@@ -52,14 +52,13 @@ std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
     return triangles;
 }
 
-/// What the results depend on, but for the devices. The number of frames may differ.
+/// What the results depend on, of what the user wrote. The number of frames may differ.
 std::string origin_of(const RunOptions& options, const Scene& scene) {
     std::string text = std::string(WEFT_VERSION) + '\n' + options.math + '\n' + scene.text;
     for (const std::string& value : scene.overrides) {
         if (!value.starts_with("scene.frames=")) text += '\n' + value;
     }
-    for (const BodyMesh& mesh : mesh_files(scene)) text += '\n' + file_hash(mesh.path);
-    return cache_key(text);
+    return text;
 }
 
 std::string named(const TextPairs& pairs, const std::string& name) {
@@ -83,6 +82,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
       folder_(folder_for(options, scene_), options.force) {
     settle_solver();
     set_up();
+    complete_origin();
     const RunDescription description = describe();
     if (options_.resume) find_earlier(description);
     folder_.claim(earlier_.has_value());
@@ -116,10 +116,10 @@ RunDescription SceneRun::describe() const {
     return description;
 }
 
-/// In one line, what the results depend on.
-std::string SceneRun::origin() const {
-    const std::string async = async_origin();
-    return async.empty() ? origin_ : cache_key(origin_ + async);
+/// With the meshes, once it is known that they can be read.
+void SceneRun::complete_origin() {
+    for (const BodyMesh& mesh : mesh_files(scene_)) origin_ += '\n' + file_hash(mesh.path);
+    origin_ = cache_key(origin_ + async_origin());
 }
 
 /// Asynchronous results depend on the map, which depends on the cuts.
@@ -136,7 +136,7 @@ std::string SceneRun::async_origin() const {
 
 /// Where nothing was left to go on from, the run begins at the beginning.
 void SceneRun::find_earlier(const RunDescription& description) {
-    const auto checkpoint = read_checkpoint(folder_.checkpoint(), origin());
+    const auto checkpoint = read_checkpoint(folder_.checkpoint(), origin_);
     if (!checkpoint) return;
     if (checkpoint->frame > scene_.frames) {
         throw UserError(fmt::format("--resume: {} frames are done already, and {} are asked for",
@@ -272,7 +272,7 @@ void SceneRun::close(FrameRecord& record) {
 /// it was taken: then trace and geometry hold all of its frames.
 void SceneRun::keep_checkpoint() {
     if (pending_) {
-        write_checkpoint(folder_.checkpoint(), origin(), *pending_);
+        write_checkpoint(folder_.checkpoint(), origin_, *pending_);
         pending_.reset();
     }
     if (now() - last_checkpoint_ < options_.checkpoint) return;
@@ -331,7 +331,7 @@ RunSummary SceneRun::finish() {
     }
     summary.files.emplace_back("summary", folder_.summary().string());
     const bool is_kept = !summary.finished || keeps_checkpoint_;
-    if (is_kept) write_checkpoint(folder_.checkpoint(), origin(), checkpoint());
+    if (is_kept) write_checkpoint(folder_.checkpoint(), origin_, checkpoint());
     if (summary.finished && is_kept)
         summary.files.emplace_back("checkpoint", folder_.checkpoint().string());
     write_summary(folder_.summary(), summary);

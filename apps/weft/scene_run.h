@@ -33,7 +33,7 @@ private:
     void set_up();
     void say_what_runs() const;
     Warnings all_warnings() const;
-    std::string origin() const;
+    void complete_origin();
     std::string async_origin() const;
     void find_earlier(const RunDescription& description);
     void take_over();
@@ -51,7 +51,7 @@ private:
     RunOptions options_;
     bool keeps_checkpoint_;
     Scene scene_;
-    std::string origin_;         ///< what the results depend on, but for the devices
+    std::string origin_;         ///< in one line, what the results depend on
     std::string solver_choice_;  ///< why it is that; empty: the scene names its solver
     OutputFolder folder_;
     Warnings warnings_;
