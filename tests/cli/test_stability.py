@@ -42,9 +42,11 @@ def test_what_held_holds(short):
                             ("mass ratio", "hanging : carrying = 1e+00, h = 4.17 ms"),
                             ("Poisson's ratio", "nu = 0.495, h = 4.17 ms"),
                             ("extreme", "a stiff sheet falls freely for 4 s"),
-                            ("extreme", "a ball of 0.3 m hits a sheet at 1000 m/s"),
                             ("extreme", "a sheet of 1000 m")]:
             assert rows[group, case, solver]["verdict"] == "stable", (group, case, solver)
+        # It does not get through; that the sheet is torn along by it is for the run to tell.
+        hit = rows["extreme", "a ball of 0.3 m hits a sheet at 1000 m/s", solver]
+        assert hit["why"] == "" and (hit["verdict"] == "stable" or hit["reported"] == "yes"), solver
     for solver in ("vbd", "sosd"):
         for start in ("at random on a sphere", "inverted"):
             case = f"a block that starts {start}"

@@ -13,8 +13,8 @@ import pytest
 FIXTURE = pathlib.Path(os.environ["WEFT_BIN"]) / "trace_fixture"
 ROOT = pathlib.Path(os.environ["WEFT_ROOT"])
 WEFT = os.environ["WEFT"]
-TABLES = ["costs", "dependencies", "divisions", "energies", "executions", "frames", "links", "plan",
-          "transfers"]
+TABLES = ["contacts", "costs", "dependencies", "divisions", "energies", "executions", "frames",
+          "links", "plan", "transfers"]
 
 
 @pytest.fixture(scope="module")
