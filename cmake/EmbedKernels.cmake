@@ -1,7 +1,7 @@
 # Script behind weft_add_kernels(): writes OUTPUT, a source that holds the text of the headers PATHS
 # under their NAMES, and hands it to the registry. ANCHOR: a symbol that makes a linker keep this
-# file, and with it those of the VARIANTS. Without an anchor, the text is what language_sources()
-# gives instead.
+# file, and with it those that define the symbols KEEP. Without an anchor, the text is what
+# language_sources() gives instead.
 
 set(entries "")
 set(delimiter "weft_source")
@@ -21,9 +21,9 @@ ${entries}};
 if(ANCHOR)
   string(APPEND source "[[maybe_unused]] const bool kAdded = weft::kernels::add_sources(kFiles);\n}\n\nextern \"C\" {\n")
   set(list "")
-  foreach(variant IN LISTS VARIANTS)
-    string(APPEND source "extern const int ${ANCHOR}_${variant};\n")
-    string(APPEND list "&${ANCHOR}_${variant}, ")
+  foreach(symbol IN LISTS KEEP)
+    string(APPEND source "extern const int ${symbol};\n")
+    string(APPEND list "&${symbol}, ")
   endforeach()
   string(APPEND source "extern const int* const ${ANCHOR}[];
 const int* const ${ANCHOR}[] = {${list}};

@@ -32,13 +32,12 @@ function(weft_add_kernels target)
   # -Wno-psabi: packs of 8 never cross a file's border, so how they would be passed does not matter.
   set(strict -O3 -fno-fast-math -ffp-contract=off -fno-math-errno)
   set(packed ${strict} -fno-trapping-math -Wno-psabi)
-  set(variants scalar packed)
-  _weft_kernel_source(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
-  _weft_kernel_source(packed
+  set(anchors "")
+  _weft_kernel_sources(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
+  _weft_kernel_sources(packed
       "#define WEFT_PACKED_TARGET packed\n#define WEFT_PACKED_ID Target::kPacked" "${packed}")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    list(APPEND variants packed_avx2)
-    _weft_kernel_source(packed_avx2
+    _weft_kernel_sources(packed_avx2
         "#define WEFT_PACKED_TARGET packed_avx2\n#define WEFT_PACKED_ID Target::kPackedAvx2"
         "${packed};-mavx2")
   endif()
@@ -56,11 +55,12 @@ function(weft_add_kernels target)
   endif()
 endfunction()
 
-# names: as messages have them; paths: where they are; includes: lines of C++.
+# names: as messages have them; paths: where they are; folders: of these, and
+# includes_<folder>: lines of C++.
 macro(_weft_kernel_paths root headers)
   set(names "")
   set(paths "")
-  set(includes "")
+  set(folders "")
   foreach(header IN ITEMS ${headers})
     get_filename_component(path ${header} ABSOLUTE)
     if(NOT EXISTS ${path})
@@ -73,26 +73,39 @@ macro(_weft_kernel_paths root headers)
     list(APPEND names ${name})
     list(APPEND paths ${path})
     if(NOT name MATCHES "kernels/platform")
-      string(APPEND includes "#include \"${name}\"\n")
+      get_filename_component(of ${path} DIRECTORY)
+      string(MAKE_C_IDENTIFIER "${of}" of)
+      if(NOT of IN_LIST folders)
+        list(APPEND folders ${of})
+        set(includes_${of} "")
+      endif()
+      string(APPEND includes_${of} "#include \"${name}\"\n")
     endif()
   endforeach()
 endmacro()
 
-# One source per target of kernels: all of them.
-macro(_weft_kernel_source variant definitions flags)
-  set(file ${folder}/${variant}.cpp)
-  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "// Made by weft_add_kernels().
+# A source per folder of headers: a change compiles that folder anew, not everything. A kernel that
+# several folders include is compiled in each and linked once, as any inline function.
+macro(_weft_kernel_sources variant definitions flags)
+  set(number 0)
+  foreach(of IN LISTS folders)
+    set(symbol ${anchor}_${variant}_${number})
+    set(file ${folder}/${variant}_${number}.cpp)
+    file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "// Made by weft_add_kernels().
 ${definitions}
-${includes}
+${includes_${of}}
 extern \"C\" {
-extern const int ${anchor}_${variant};
-const int ${anchor}_${variant} = 0;
+extern const int ${symbol};
+const int ${symbol} = 0;
 }
 ")
-  target_sources(${target} PRIVATE ${file})
-  set_source_files_properties(${file} TARGET_DIRECTORY ${target}
-                              PROPERTIES COMPILE_OPTIONS "${flags}" SKIP_PRECOMPILE_HEADERS ON
-                                         SKIP_UNITY_BUILD_INCLUSION ON)
+    target_sources(${target} PRIVATE ${file})
+    set_source_files_properties(${file} TARGET_DIRECTORY ${target}
+                                PROPERTIES COMPILE_OPTIONS "${flags}" SKIP_PRECOMPILE_HEADERS ON
+                                           SKIP_UNITY_BUILD_INCLUSION ON)
+    list(APPEND anchors ${symbol})
+    math(EXPR number "${number} + 1")
+  endforeach()
 endmacro()
 
 macro(_weft_kernel_text)
@@ -100,7 +113,7 @@ macro(_weft_kernel_text)
   add_custom_command(
     OUTPUT ${file}
     COMMAND ${CMAKE_COMMAND} -D "OUTPUT=${file}" -D "NAMES=${names}" -D "PATHS=${paths}" -D
-            "ANCHOR=${anchor}" -D "VARIANTS=${variants}" -P ${script}
+            "ANCHOR=${anchor}" -D "KEEP=${anchors}" -P ${script}
     DEPENDS ${paths} ${script}
     COMMENT "Embedding kernels of ${target}"
     VERBATIM)
