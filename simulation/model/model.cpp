@@ -168,12 +168,7 @@ void Model::place(double time) {
         (*gravity)[static_cast<std::size_t>(substep)] =
             to_float4(scene.gravity_at(time + (substep + 0.5) * h));
     }
-    if (moving_pins) {
-        moving_pins->place(time, h);
-        if (scene.contact) {
-            moving_pins->farthest()[0] = static_cast<float>(moving_pins->farthest_move(time, h));
-        }
-    }
+    if (moving_pins) moving_pins->place(time, h);
     for (const auto& family : families) family->place(time, h);
     time_ = time;
     if (obstacles) place_obstacles(obstacles->have_width() ? speed_ahead() : 0.0);
@@ -213,10 +208,7 @@ double Model::speed_ahead() const {
 
 std::vector<BufferStorage*> Model::placed_buffers() {
     std::vector<BufferStorage*> buffers{gravity.get()};
-    if (moving_pins) {
-        moving_pins->add_placed(buffers);
-        buffers.push_back(&moving_pins->farthest());
-    }
+    if (moving_pins) moving_pins->add_placed(buffers);
     if (obstacles) buffers.push_back(&obstacles->placements());
     for (const auto& family : families) {
         if (BufferStorage* buffer = family->placed_buffer()) buffers.push_back(buffer);

@@ -37,8 +37,6 @@ public:
     void place_at(double time, std::span<Vec3> positions) const;
     /// Those that place() writes.
     void add_placed(std::vector<BufferStorage*>& buffers);
-    /// [1] the farthest that a pin goes in a substep of the frame [m].
-    Buffer<float>& farthest() { return farthest_; }
     void add_launches(std::vector<Launch>& launches, Buffer<float4>& positions);
 
 private:
@@ -55,7 +53,6 @@ private:
     std::vector<std::unique_ptr<Table>> tables_;  ///< [group]
     int substeps_;
     Buffer<float4> motions_;  ///< [substep][group][3 rows]
-    Buffer<float> farthest_{"pins.farthest", 1};
 };
 
 }  // namespace weft

@@ -53,6 +53,16 @@ def inside(picture):
     return True
 
 
+def scale_of(panels):
+    """Pixels per second, from the longer panel's first start and last end: the longest span that
+    the picture shows, so that a pixel more or less there is nothing."""
+    spans = [(table["end"].max() - table["start"].min(),
+              max(x + width for _, x, _, width in panel) - min(x for _, x, _, _ in panel))
+             for panel, table in panels]
+    seconds, pixels = max(spans)
+    return pixels / seconds
+
+
 @pytest.mark.parametrize("more", [[], ["--memory", "discrete"]], ids=["shared", "discrete"])
 def test_mixture(tmp_path, more):
     trace = divided(tmp_path, *more)
@@ -83,12 +93,11 @@ def test_mixture(tmp_path, more):
     # Lengths are times, on one scale for both panels.
     plan["start"] *= frame["pace"]
     plan["end"] *= frame["pace"]
-    scale = max(width for _, _, _, width in planned) / (plan["end"] - plan["start"]).max()
+    scale = scale_of([(planned, plan), (measured, runs)])
     for panel, table in [(planned, plan), (measured, runs)]:
         times = {int(row["task"]): row["end"] - row["start"] for row in table}
         for name, _, _, width in panel:
-            # The scale is known as well as the widest planned bar is.
-            assert width == pytest.approx(scale * times[int(name.split()[0])], rel=0.1, abs=2.0)
+            assert width == pytest.approx(scale * times[int(name.split()[0])], abs=2.0)
 
     crossing = collections.Counter(device[d["to"]] for d in graph if device[d["from"]] != device[d["to"]])
     heads = arrows(picture)

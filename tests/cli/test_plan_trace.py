@@ -221,14 +221,25 @@ def test_more_bad_costs(tmp_path):
     expect_error(weft("plan", trace, "--costs", "none.json", cwd=tmp_path), 2, "none.json: No such")
 
 
+@pytest.fixture(scope="module")
+def known(tmp_path_factory):
+    """A run's trace with costs that are the same every day: 20 ns per item, and 0.2 us."""
+    trace = record(tmp_path_factory.mktemp("known"), "--device", "cpu/1")
+    with h5py.File(trace, "r+") as file:
+        costs = file["costs"][:]
+        costs["per_item"], costs["fixed"] = 2e-8, 2e-7
+        file["costs"][:] = costs
+    return trace
+
+
 def machines(trace, folder, *more):
     study = weft_json("plan", trace, "--frame", 4, "--machines", "--out", folder, "--device-counts",
                       "2,3", "--waits", "1e-6,1e-4,1e-3", "--ratios", "1,8", *more)
     return study, {(r["faster_at"], r["devices"], r["ratio"], r["wait_s"]): r for r in study["rows"]}
 
 
-def test_machines_that_are_not_there(single, tmp_path):
-    study, rows = machines(single, tmp_path / "map")
+def test_machines_that_are_not_there(known, tmp_path):
+    study, rows = machines(known, tmp_path / "map")
     assert len(rows) == 2 * 2 * 2 * 3
     for (faster, devices, ratio, wait), row in rows.items():
         times = [row[f"{plan}_s"] for plan in ("single", "exact", "placed", "async")]
@@ -242,7 +253,8 @@ def test_machines_that_are_not_there(single, tmp_path):
         if wait > 1e-6:
             assert row["exact_s"] >= rows[faster, devices, ratio, 1e-6]["exact_s"] * (1 - 1e-9)
     # Two alike that need not wait share the work; waits of a millisecond leave it to one.
-    assert rows["everything", 2, 1.0, 1e-6]["exact_s"] < rows["everything", 2, 1.0, 1e-6]["single_s"]
+    alike = rows["everything", 2, 1.0, 1e-6]
+    assert alike["exact_s"] < 0.8 * alike["single_s"]
     assert rows["everything", 2, 1.0, 1e-3]["exact_s"] > rows["everything", 2, 1.0, 1e-3]["single_s"]
     assert study["fast_kind"] in ("seams", "strips")
 
