@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "runtime/error.h"
 #include "runtime/tbb/parallel.h"
+#include "simulation/contact/knots.h"
 #include "simulation/energy_account.h"
 #include "simulation/mesh/winding.h"
 #include "simulation/model/contact_thickness.h"
@@ -21,26 +21,6 @@ namespace {
 
 constexpr std::size_t kNamedPairs = 20;
 
-/// Elements of two vertices that are no edge of a triangle: attachments and stitches.
-std::set<std::array<int, 2>> find_ties(const Model& model) {
-    std::set<std::array<int, 2>> ties;
-    for (const Stencils& kind : model.stencils()) {
-        if (kind.arity != 2) continue;
-        for (int e = 0; e < kind.count(); ++e) {
-            const int a = model.scene_vertex(kind[e][0]);
-            const int b = model.scene_vertex(kind[e][1]);
-            ties.insert({std::min(a, b), std::max(a, b)});
-        }
-    }
-    for (const auto& t : model.triangles) {
-        for (std::size_t k = 0; k < 3 && !ties.empty(); ++k) {
-            const int a = t[k], b = t[(k + 1) % 3];
-            ties.erase({std::min(a, b), std::max(a, b)});
-        }
-    }
-    return ties;
-}
-
 /// The model's triangles at its positions, and which pairs of them contact looks at.
 class StartSurface {
 public:
@@ -48,12 +28,14 @@ public:
         : model_(model),
           positions_(model.positions->span().size()),
           held_(positions_.size()),
-          ties_(find_ties(model)) {
+          knots_(positions_.size()) {
+        const std::vector<int> knots = knots_of(model, model.scene.contact->thickness);
         for (std::size_t v = 0; v < positions_.size(); ++v) {
             const float4& x = (*model.positions)[v];
             const auto s = static_cast<std::size_t>(model.scene_vertex(static_cast<int>(v)));
             positions_[s] = {x.x, x.y, x.z};
             held_[s] = x.w == 0.0f ? 1 : 0;
+            knots_[s] = knots[v];
         }
     }
 
@@ -66,7 +48,7 @@ public:
 
     bool counts(int a, int b) const {
         if (body(a) == body(b) && !model_.scene.contact->self) return false;
-        return !(is_held(a) && is_held(b)) && !are_tied(a, b);
+        return !(is_held(a) && is_held(b)) && (share_a_vertex(a, b) || !share_a_knot(a, b));
     }
     bool share_a_vertex(int a, int b) const {
         return std::ranges::any_of(triangle(a),
@@ -81,20 +63,18 @@ private:
         return std::ranges::all_of(triangle(t),
                                    [&](int v) { return held_[static_cast<std::size_t>(v)] != 0; });
     }
-    bool are_tied(int a, int b) const {
-        if (ties_.empty()) return false;
-        for (const int v : triangle(a)) {
-            for (const int w : triangle(b)) {
-                if (ties_.contains({std::min(v, w), std::max(v, w)})) return true;
-            }
-        }
-        return false;
+    int knot(int vertex) const { return knots_[static_cast<std::size_t>(vertex)]; }
+    bool share_a_knot(int a, int b) const {
+        return std::ranges::any_of(triangle(a), [&](int v) {
+            return std::ranges::find(triangle(b), knot(v),
+                                     [&](int w) { return knot(w); }) != triangle(b).end();
+        });
     }
 
     const Model& model_;
     std::vector<Vec3> positions_;  ///< in scene order
     std::vector<char> held_;
-    std::set<std::array<int, 2>> ties_;
+    std::vector<int> knots_;       ///< likewise
 };
 
 /// Pairs nearer than `floor` that do not cross.

@@ -43,6 +43,7 @@ struct Stack {
                           x * std::sin(turn) + z * std::cos(turn)};
             mesh.rest.push_back({x, 2.0 * layer, z});
             mesh.held.push_back(0);
+            mesh.knots.push_back(static_cast<int>(mesh.knots.size()));
             unordered.push_back(to_float4(at, shape.reach));
             if (row + 1 == shape.size || v % shape.size + 1 == shape.size) continue;
             mesh.triangles.push_back({v, v + shape.size, v + 1});

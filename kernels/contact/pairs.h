@@ -3,7 +3,8 @@
 
 // Pairs of vertices and triangles, and of edges, that may touch in a substep. Both sides of a pair
 // find it, by the same arithmetic in the same order of operands. It is one if the boxes of the two
-// overlap, they share no vertex, and their distance d at the anchors is such that
+// overlap, they share no vertex or knot (simulation/contact/knots.h), and their distance d at the
+// anchors is such that
 //   d < reach + reach + least        they can meet, or
 //   d < reach + reach + halo         and they push (regions.h). A reach is half a halo at least,
 //                                    and a halo half of the thickness: so all that is nearer than
@@ -43,6 +44,7 @@ WEFT_INLINE int any_near(WEFT_GLOBAL const int* near_counts, int first_patch, in
     return most > 0;
 }
 
+/// Whether a vertex and a triangle have nothing in common, by their knots.
 WEFT_INLINE mask differs_from(whole v, whole a, whole b, whole c) {
     return both(v != a, both(v != b, v != c));
 }
@@ -54,6 +56,7 @@ WEFT_INLINE mask differs_from(whole v, whole a, whole b, whole c) {
 /// patch_low, patch_high   [patches] boxes
 /// patch_triangles   [patches + 1] where the triangles of each begin
 /// corners     [3 * triangle_count] column-major
+/// knots       [vertices]
 /// low, high   [triangles] boxes; w of high: reach
 /// beyond, owned, ring_begin, ring   as in regions.h
 /// rows, counts, needs, others       a table, as in kernels/neighbours.h
@@ -61,7 +64,8 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
             WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_triangles,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* low,
+            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
+            WEFT_GLOBAL const float4* low,
             WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* beyond,
             WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
             WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
@@ -78,6 +82,7 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
     const real_box box = box_of(x, splat(0.5f * halo));
     const float_box all = around_all(box);
     const whole self = item_numbers(i);
+    const whole knot = load_whole(knots, i);
     const whole patch = load_whole(patches, i);
     for (int p = first_patch; p <= last_patch; ++p) {
         const mask mine = patch == splat_whole(p);
@@ -92,8 +97,11 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
                 const triangle_corners k = {splat_whole(t), splat_whole(corners[t]),
                                             splat_whole(corners[t + triangle_count]),
                                             splat_whole(corners[t + 2 * triangle_count])};
-                const mask on = both(both(mine, overlaps(box, t_low, t_high)),
-                                     differs_from(self, k.a, k.b, k.c));
+                const mask apart = differs_from(
+                    knot, splat_whole(knots[corners[t]]),
+                    splat_whole(knots[corners[t + triangle_count]]),
+                    splat_whole(knots[corners[t + 2 * triangle_count]]));
+                const mask on = both(both(mine, overlaps(box, t_low, t_high)), apart);
                 if (!any_item(on)) continue;
                 const closest_points c = closest_vertex_triangle(
                     xyz(x), splat3(points[corners[t]]), splat3(points[corners[t + triangle_count]]),
@@ -118,7 +126,8 @@ WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
             WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_vertices,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* low,
+            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
+            WEFT_GLOBAL const float4* low,
             WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* beyond,
             WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
             WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
@@ -134,6 +143,9 @@ WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
     const triangle_corners k = {item_numbers(i), load_whole(corners, i),
                                 load_whole(corners, column(i, item_count, 1)),
                                 load_whole(corners, column(i, item_count, 2))};
+    const triangle_corners knot = {k.number, gather_whole(knots, address(k.a)),
+                                   gather_whole(knots, address(k.b)),
+                                   gather_whole(knots, address(k.c))};
     const real3 a = xyz(gather4(points, address(k.a)));
     const real3 b = xyz(gather4(points, address(k.b)));
     const real3 c = xyz(gather4(points, address(k.c)));
@@ -157,7 +169,7 @@ WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
                 if (!meets(all, v_low, v_high)) continue;
                 const whole vertex = splat_whole(v);
                 const mask on = both(both(mine, overlaps(box, v_low, v_high)),
-                                     differs_from(vertex, k.a, k.b, k.c));
+                                     differs_from(splat_whole(knots[v]), knot.a, knot.b, knot.c));
                 if (!any_item(on)) continue;
                 const closest_points near_by = closest_vertex_triangle(splat3(x), a, b, c);
                 const pair_ranges range = ranges_of(splat(x.w), top.w, least, halo);
@@ -214,7 +226,8 @@ WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int*
             WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_edges,
-            WEFT_GLOBAL const int* ends, WEFT_GLOBAL const float4* low,
+            WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* knots,
+            WEFT_GLOBAL const float4* low,
             WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
             WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
             float least, int instance) {
@@ -228,6 +241,8 @@ WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int*
     const whole self = item_numbers(i);
     const whole a = load_whole(ends, i);
     const whole b = load_whole(ends, column(i, item_count, 1));
+    const whole knot_a = gather_whole(knots, address(a));
+    const whole knot_b = gather_whole(knots, address(b));
     const real3 x = xyz(gather4(points, address(a)));
     const real3 y = xyz(gather4(points, address(b)));
     const real4 top = load4(high, i);
@@ -246,10 +261,11 @@ WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int*
                 const float4 e_low = low[e];
                 const float4 e_high = high[e];
                 if (!meets(all, e_low, e_high)) continue;
-                const whole u = splat_whole(ends[e]);
-                const whole v = splat_whole(ends[e + item_count]);
-                const mask on = both(both(mine, overlaps(box, e_low, e_high)),
-                                     both(both(a != u, a != v), both(b != u, b != v)));
+                const whole u = splat_whole(knots[ends[e]]);
+                const whole v = splat_whole(knots[ends[e + item_count]]);
+                const mask apart =
+                    both(both(knot_a != u, knot_a != v), both(knot_b != u, knot_b != v));
+                const mask on = both(both(mine, overlaps(box, e_low, e_high)), apart);
                 if (!any_item(on)) continue;
                 const mask in_order = self < splat_whole(e);
                 const real3 z0 = splat3(points[ends[e]]);

@@ -24,12 +24,17 @@ TetMesh read_checked(const std::string& path, Warnings& warnings) {
     return mesh;
 }
 
+TetMesh block_of(const BlockShape& block) {
+    if (block.outline.empty()) return make_block(block.size, block.resolution);
+    return make_outlined_block(block.size, block.resolution, block.outline);
+}
+
 }  // namespace
 
 TetMesh build_solid_mesh(const Solid& solid, Warnings& warnings) {
     const auto* block = std::get_if<BlockShape>(&solid.shape);
-    TetMesh mesh = block ? make_block(block->size, block->resolution)
-                         : read_checked(std::get<MeshFile>(solid.shape).path, warnings);
+    TetMesh mesh =
+        block ? block_of(*block) : read_checked(std::get<MeshFile>(solid.shape).path, warnings);
     place(mesh.positions, solid.transform);
     check_volumes(mesh);
     return mesh;

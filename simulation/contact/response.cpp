@@ -119,7 +119,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       anchors_("contact.anchors", model.positions->count()),
       goals_("contact.goals", model.positions->count()),
       stiffness_("contact.stiffness", model.positions->count()),
-      pairs_(make_surface(surface_of(model), model.strips), rest_of(model), anchors_, goals_,
+      pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips), rest_of(model), anchors_, goals_,
              model.vertices(), {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
       motion_(model, pairs_.surface(), model.scene.contact->thickness,
               2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulation/contact/knots.h"
 #include "simulation/families/convert.h"
 
 namespace weft {
@@ -48,7 +49,7 @@ std::vector<Vec3> rest_of(const Model& model) {
     return rest;
 }
 
-SurfaceMesh surface_of(const Model& model) {
+SurfaceMesh surface_of(const Model& model, double thickness) {
     SurfaceMesh mesh;
     const auto& rank = model.strips.rank;
     for (const auto& t : model.triangles) {
@@ -58,6 +59,7 @@ SurfaceMesh surface_of(const Model& model) {
     mesh.triangle_body = model.triangle_body;
     mesh.rest = rest_of(model);
     for (const float4& x : model.positions->span()) mesh.held.push_back(x.w > 0.0f ? 0 : 1);
+    mesh.knots = knots_of(model, thickness);
     return mesh;
 }
 

@@ -15,6 +15,6 @@ std::vector<float> contact_stiffness(const Model& model);
 /// The vertices where they are now [m].
 std::vector<Vec3> rest_of(const Model& model);
 /// All triangles of a model as a surface's.
-SurfaceMesh surface_of(const Model& model);
+SurfaceMesh surface_of(const Model& model, double thickness);
 
 }  // namespace weft

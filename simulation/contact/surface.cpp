@@ -125,6 +125,7 @@ private:
         for (const int v : vertices) {
             number_[static_cast<std::size_t>(v)] = s_.vertex_count();
             s_.vertices.push_back(v);
+            s_.knots.push_back(mesh_.knots[static_cast<std::size_t>(v)]);
             patch_of_.push_back(s_.patch_count());
         }
         s_.patch_body.push_back(body);

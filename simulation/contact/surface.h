@@ -15,6 +15,8 @@ struct SurfaceMesh {
     std::vector<int> triangle_body;             ///< [triangles]
     std::vector<Vec3> rest;                     ///< [model vertices] [m]
     std::vector<char> held;                     ///< [model vertices] what cannot be moved
+    /// [model vertices] a number in common: they count as one vertex, which does not touch itself
+    std::vector<int> knots;
 };
 
 /// Lists of ints: list i is items[begin[i]] to items[begin[i + 1]].
@@ -40,6 +42,7 @@ struct Surface {
     static constexpr int kPatchVertices = 8;
 
     std::vector<int> vertices;                  ///< the model's
+    std::vector<int> knots;                     ///< [vertices] as in SurfaceMesh
     std::vector<std::array<int, 3>> triangles;  ///< as oriented in their mesh
     std::vector<std::array<int, 2>> edges;      ///< lower vertex, higher vertex
     std::vector<int> mesh_triangles;            ///< [triangles] their numbers in the mesh

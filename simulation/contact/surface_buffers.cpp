@@ -159,6 +159,7 @@ SurfaceBuffers::SurfaceBuffers(const Surface& s, const std::vector<Vec3>& rest)
       triangles("triangles", s.patch_triangles, s),
       edges("edges", s.patch_edges, s),
       model_vertices("model_vertices", s.vertices),
+      knots("knots", s.knots),
       corners("corners", column_major(s.triangles)),
       ends("ends", column_major(s.edges)),
       beyond("beyond", column_major(s.beyond)),

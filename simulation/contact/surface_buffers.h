@@ -47,6 +47,7 @@ struct SurfaceBuffers {
 
     Patched vertices, triangles, edges;
     Ints model_vertices;  ///< [vertices]
+    Ints knots;           ///< [vertices] Surface::knots
     Ints corners;         ///< [3 * triangles]
     Ints ends;            ///< [2 * edges]
     Ints beyond;          ///< [3 * triangles] Surface::beyond

@@ -153,6 +153,9 @@ public:
     virtual std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                         const StencilLayout::Family& chosen) const;
 
+    /// Whether elements of two vertices bring these to one place in the end.
+    virtual bool brings_together() const { return false; }
+
     // ---- what changes by itself ----
 
     /// Makes room for the substeps of a frame; before all else.

@@ -49,6 +49,62 @@ void add_cell(TetMesh& mesh, int lowest, const std::array<int, 3>& offset) {
     }
 }
 
+/// is_there(i, j): whether the cells there are, along the whole depth.
+template <class IsThere>
+TetMesh make_cells(std::array<double, 3> size, std::array<int, 3> resolution, IsThere is_there) {
+    TetMesh mesh;
+    mesh.source = "block";
+    const auto [nx, ny, nz] = resolution;
+    const auto at = [&](std::size_t axis, int index) {
+        return size[axis] * (fraction(index, resolution[axis] - 1) - 0.5);
+    };
+    for (int k = 0; k < nz; ++k) {
+        for (int j = 0; j < ny; ++j) {
+            for (int i = 0; i < nx; ++i) mesh.positions.push_back({at(0, i), at(1, j), at(2, k)});
+        }
+    }
+    for (int k = 0; k + 1 < nz; ++k) {
+        for (int j = 0; j + 1 < ny; ++j) {
+            for (int i = 0; i + 1 < nx; ++i) {
+                if (!is_there(i, j)) continue;
+                add_cell(mesh, (k * ny + j) * nx + i, {1, nx, nx * ny});
+            }
+        }
+    }
+    return mesh;
+}
+
+/// Whether the middle of cell (i, j) is in a '#'.
+bool is_filled(const std::vector<std::string>& outline, const std::array<int, 3>& resolution, int i,
+               int j) {
+    const auto place = [](int cell, int cells, std::size_t places) {
+        return (2 * static_cast<std::size_t>(cell) + 1) * places /
+               (2 * static_cast<std::size_t>(cells));
+    };
+    const int columns = resolution[0] - 1;
+    const int rows = resolution[1] - 1;
+    const std::string& row = outline[place(rows - 1 - j, rows, outline.size())];
+    return row[place(i, columns, row.size())] == '#';
+}
+
+/// Removes vertices that no tetrahedron has.
+void drop_unused(TetMesh& mesh) {
+    std::vector<int> number(mesh.positions.size(), -1);
+    for (const auto& t : mesh.tetrahedra) {
+        for (const int v : t) number[static_cast<std::size_t>(v)] = 0;
+    }
+    std::vector<Vec3> kept;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] < 0) continue;
+        number[v] = static_cast<int>(kept.size());
+        kept.push_back(mesh.positions[v]);
+    }
+    mesh.positions = std::move(kept);
+    for (auto& t : mesh.tetrahedra) {
+        for (int& v : t) v = number[static_cast<std::size_t>(v)];
+    }
+}
+
 }  // namespace
 
 TriangleMesh make_grid(std::array<double, 2> size, std::array<int, 2> resolution) {
@@ -96,25 +152,30 @@ TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
 }
 
 TetMesh make_block(std::array<double, 3> size, std::array<int, 3> resolution) {
-    TetMesh mesh;
-    mesh.source = "block";
-    const auto [nx, ny, nz] = resolution;
-    const auto at = [&](std::size_t axis, int index) {
-        return size[axis] * (fraction(index, resolution[axis] - 1) - 0.5);
-    };
-    for (int k = 0; k < nz; ++k) {
-        for (int j = 0; j < ny; ++j) {
-            for (int i = 0; i < nx; ++i) mesh.positions.push_back({at(0, i), at(1, j), at(2, k)});
-        }
-    }
-    for (int k = 0; k + 1 < nz; ++k) {
-        for (int j = 0; j + 1 < ny; ++j) {
-            for (int i = 0; i + 1 < nx; ++i) {
-                add_cell(mesh, (k * ny + j) * nx + i, {1, nx, nx * ny});
-            }
-        }
-    }
+    return make_cells(size, resolution, [](int, int) { return true; });
+}
+
+TetMesh make_outlined_block(std::array<double, 3> size, std::array<int, 3> resolution,
+                            const std::vector<std::string>& outline) {
+    TetMesh mesh = make_cells(size, resolution,
+                              [&](int i, int j) { return is_filled(outline, resolution, i, j); });
+    drop_unused(mesh);
     return mesh;
+}
+
+double outlined_vertex_count(std::array<int, 3> resolution,
+                             const std::vector<std::string>& outline) {
+    const auto [nx, ny, nz] = resolution;
+    const auto there = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i + 1 < nx && j + 1 < ny && is_filled(outline, resolution, i, j);
+    };
+    double count = 0.0;
+    for (int j = 0; j < ny; ++j) {
+        for (int i = 0; i < nx; ++i) {
+            if (there(i, j) || there(i - 1, j) || there(i, j - 1) || there(i - 1, j - 1)) ++count;
+        }
+    }
+    return count * nz;
 }
 
 }  // namespace weft

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "simulation/mesh/tet_mesh.h"
 #include "simulation/mesh/triangle_mesh.h"
@@ -26,5 +28,13 @@ TriangleMesh make_cylinder(std::array<double, 2> radius, double height,
 /// into 6 tetrahedra around its diagonal from (i, j, k) to (i + 1, j + 1, k + 1) (Freudenthal,
 /// Kuhn), so that neighbours fit together whatever the resolution.
 TetMesh make_block(std::array<double, 3> size, std::array<int, 3> resolution);
+
+/// Of such a block the cells whose middle is in a '#' of the outline: a picture of the x-y side,
+/// rows from the top, all as long. Their vertices keep their order.
+TetMesh make_outlined_block(std::array<double, 3> size, std::array<int, 3> resolution,
+                            const std::vector<std::string>& outline);
+/// How many vertices that has.
+double outlined_vertex_count(std::array<int, 3> resolution,
+                             const std::vector<std::string>& outline);
 
 }  // namespace weft

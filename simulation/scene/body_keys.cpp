@@ -135,8 +135,39 @@ const TableKeys& block_table() {
          .help = "vertices along x, y and z",
          .required = true,
          .range = kVertices},
+        {.name = "outline",
+         .type = Type::kText,
+         .forms = {{kAny}},
+         .help = "rows of a picture of the x-y side, from the top: only where it has a '#' the "
+                 "block is there; '.' elsewhere. Default: all of it"},
     }};
     return table;
+}
+
+const TableKeys& copies_table() {
+    static const TableKeys table{{
+        {.name = "count",
+         .type = Type::kInteger,
+         .help = "how many there are, with the first; the others are called NAME.1, NAME.2, ...",
+         .required = true,
+         .range = between(1, 1e5)},
+        {.name = "translate",
+         .forms = {{3}},
+         .help = "from each to the next",
+         .unit = "m",
+         .fallback = std::vector<double>{0, 0, 0},
+         .range = kPlace},
+        rotation_key(),
+    }};
+    return table;
+}
+
+const Key& copies_key() {
+    static const Key key{.name = "copies",
+                         .type = Type::kTable,
+                         .help = "of the same body, each moved and turned on from the one before",
+                         .table = &copies_table()};
+    return key;
 }
 
 // Which vertices: corners where there are some, indices, boxes.
@@ -277,6 +308,7 @@ TableKeys cloth_keys() {
                 scale_key(),
                 rotation_key(),
                 translate_key(),
+                copies_key(),
                 {.name = "density",
                  .help = "mass per area",
                  .unit = "kg/m^2",
@@ -371,6 +403,7 @@ const TableKeys& solid_table() {
                 scale_key(),
                 rotation_key(),
                 translate_key(),
+                copies_key(),
                 {.name = "density",
                  .help = "mass per volume",
                  .unit = "kg/m^3",

@@ -9,6 +9,7 @@
 #include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/read_motion.h"
+#include "simulation/scene/resolution.h"
 
 namespace weft {
 namespace {
@@ -62,11 +63,33 @@ void check_rest(const Node& table, const Cloth& cloth) {
                       "must be one factor, since the rest shape is scaled by it, too");
 }
 
-Shape read_solid_shape(const Node& table, const std::string& scene_path) {
-    if (const Node* block = table.find("grid")) {
-        return BlockShape{triple_of(number_values(*block, "size")),
-                          triple_of(integer_values(*block, "resolution"))};
+void check_outline(const Node& grid, const BlockShape& block) {
+    const auto& rows = block.outline;
+    bool is_empty = true;
+    for (const std::string& row : rows) {
+        if (row.empty() || row.size() != rows.front().size() ||
+            row.find_first_not_of("#.") != std::string::npos) {
+            throw value_error(grid, "outline", "expected rows of '#' and '.', all as long");
+        }
+        is_empty = is_empty && row.find('#') == std::string::npos;
     }
+    if (is_empty) throw value_error(grid, "outline", "has no '#': nothing of the block is left");
+    const std::array least = least_resolution(block);
+    if (block.resolution[0] >= least[0] && block.resolution[1] >= least[1]) return;
+    throw value_error(grid, "resolution",
+                      fmt::format("the outline's {} x {} places need at least {} x {} vertices",
+                                  least[0] - 1, least[1] - 1, least[0], least[1]));
+}
+
+BlockShape read_block(const Node& grid) {
+    BlockShape block{triple_of(number_values(grid, "size")),
+                     triple_of(integer_values(grid, "resolution")), text_values(grid, "outline")};
+    if (grid.find("outline")) check_outline(grid, block);
+    return block;
+}
+
+Shape read_solid_shape(const Node& table, const std::string& scene_path) {
+    if (const Node* grid = table.find("grid")) return read_block(*grid);
     return MeshFile{mesh_path(table, scene_path)};
 }
 
@@ -99,9 +122,15 @@ std::vector<Box3> read_boxes(const Node& pins) {
     return boxes;
 }
 
+/// Whether its corners and faces have names.
+bool is_whole_block(const Shape& shape) {
+    const auto* block = std::get_if<BlockShape>(&shape);
+    return block != nullptr && block->outline.empty();
+}
+
 bool has_corner(const Shape& shape, const std::string& corner) {
     const bool is_of_block = corner.size() == 6;  // "x-y-z-", while a grid's are "x-z-"
-    return is_of_block ? std::holds_alternative<BlockShape>(shape)
+    return is_of_block ? is_whole_block(shape)
                        : std::holds_alternative<GridShape>(shape);
 }
 
@@ -119,7 +148,8 @@ void read_selection(const Node& table, const Shape& shape, Selection& selection)
         if (!has_corner(shape, corner)) {
             throw value_error(table, "corners",
                               corner.size() == 6
-                                  ? "only a solid's grid has such corners; use vertices or box"
+                                  ? "only a solid's grid has such corners, and none with an "
+                                    "outline; use vertices or box"
                                   : "only a grid has corners; use vertices or box");
         }
     }
@@ -129,8 +159,10 @@ void read_selection(const Node& table, const Shape& shape, Selection& selection)
     if (!selection.rims.empty() && !std::holds_alternative<CylinderShape>(shape)) {
         throw value_error(table, "rims", "only a cylinder has rims; use vertices or box");
     }
-    if (!selection.faces.empty() && !std::holds_alternative<BlockShape>(shape)) {
-        throw value_error(table, "faces", "only a solid's grid has faces; use vertices or box");
+    if (!selection.faces.empty() && !is_whole_block(shape)) {
+        throw value_error(table, "faces",
+                          "only a solid's grid has faces, and none with an outline; use "
+                          "vertices or box");
     }
     if (!selection.parts.empty() && !std::holds_alternative<MeshFile>(shape)) {
         throw value_error(table, "parts",
@@ -238,7 +270,31 @@ SeamSide read_seam_side(const Node& table, const Scene& scene) {
                       "say which of its vertices: edges, rims, parts, vertices or box");
 }
 
+/// Puts a body where its copy number n is.
+void move_on(const Node& copies, int n, Transform& transform) {
+    for (int k = 0; k < n; ++k) {
+        for (const Rotation& r : rotation_values(copies, "rotate")) transform.rotations.push_back(r);
+    }
+    transform.translate = transform.translate + static_cast<double>(n) * vec3_value(copies, "translate");
+}
+
 }  // namespace
+
+template <class Body>
+std::vector<Body> read_copies(const Node& table, const Body& body) {
+    std::vector<Body> all{body};
+    const Node* copies = table.find("copies");
+    if (!copies) return all;
+    for (int n = 1; n < integer_value(*copies, "count"); ++n) {
+        Body& copy = all.emplace_back(body);
+        copy.name = fmt::format("{}.{}", body.name, n);
+        move_on(*copies, n, copy.transform);
+    }
+    return all;
+}
+
+template std::vector<Cloth> read_copies(const Node& table, const Cloth& body);
+template std::vector<Solid> read_copies(const Node& table, const Solid& body);
 
 Cloth read_cloth(const Node& table, const std::string& scene_path) {
     Cloth cloth;

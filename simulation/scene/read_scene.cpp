@@ -72,6 +72,12 @@ std::string read_name(const Node& table, const std::string& fallback) {
     return name;
 }
 
+void take_name(const Node& table, const std::string& name, std::string_view what,
+               std::set<std::string>& names) {
+    if (names.insert(name).second) return;
+    throw value_error(table, "name", fmt::format("another {} has the name '{}'", what, name));
+}
+
 /// Reads every entry of [[key]] and gives it a name that none of `names` has.
 template <class Entry, class Read>
 std::vector<Entry> read_entries(const Node& root, const std::string& key,
@@ -82,14 +88,27 @@ std::vector<Entry> read_entries(const Node& root, const std::string& key,
     for (const Node& table : list->array()) {
         Entry entry = read(table);
         entry.name = read_name(table, key + std::to_string(entries.size()));
-        if (!names.insert(entry.name).second) {
-            const char* what = key == "obstacle" ? "obstacle" : "cloth or solid";
-            throw value_error(table, "name",
-                              fmt::format("another {} has the name '{}'", what, entry.name));
-        }
+        take_name(table, entry.name, key == "obstacle" ? "obstacle" : "cloth or solid", names);
         entries.push_back(std::move(entry));
     }
     return entries;
+}
+
+/// The same, each followed by its copies.
+template <class Body, class Read>
+std::vector<Body> read_bodies(const Node& root, const std::string& key,
+                              std::set<std::string>& names, Read read) {
+    std::vector<Body> all;
+    const std::vector<Body> written = read_entries<Body>(root, key, names, read);
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        const Body& first = written[i];
+        const Node& table = root.find(key)->array()[i];
+        for (Body& body : read_copies(table, first)) {
+            if (body.name != first.name) take_name(table, body.name, "cloth or solid", names);
+            all.push_back(std::move(body));
+        }
+    }
+    return all;
 }
 
 /// One entry of [[obstacle]], of either kind.
@@ -223,10 +242,10 @@ Scene read_document(const Node& root, const std::string& path) {
     scene.output = {integer_value(output, "every"),
                     compression_named(text_value(output, "compression"))};
     std::set<std::string> names;
-    scene.cloths = read_entries<Cloth>(root, "cloth", names,
-                                       [&](const Node& table) { return read_cloth(table, path); });
-    scene.solids = read_entries<Solid>(root, "solid", names,
-                                       [&](const Node& table) { return read_solid(table, path); });
+    scene.cloths = read_bodies<Cloth>(root, "cloth", names,
+                                      [&](const Node& table) { return read_cloth(table, path); });
+    scene.solids = read_bodies<Solid>(root, "solid", names,
+                                      [&](const Node& table) { return read_solid(table, path); });
     scene.contact = read_contact(root);
     read_obstacles(root, names, scene);
     scene.attachments = read_attachments(root, scene);

@@ -7,34 +7,53 @@
 #include <fmt/format.h>
 
 #include "runtime/error.h"
+#include "simulation/mesh/generators.h"
 #include "simulation/scene/limits.h"
 
 namespace weft {
 namespace {
 
-/// The resolutions of a generated shape; none of a file.
-std::vector<int*> resolutions_of(Shape& shape) {
+/// A resolution of a generated shape.
+struct Count {
+    int* value;
+    int least = 3;  ///< around a cylinder; a grid can spare the difference to 2
+};
+
+/// None of a file.
+std::vector<Count> resolutions_of(Shape& shape) {
     const auto pointers = [](auto& resolution) {
-        std::vector<int*> list;
-        for (int& count : resolution) list.push_back(&count);
+        std::vector<Count> list;
+        for (int& count : resolution) list.push_back({&count});
         return list;
     };
     if (auto* grid = std::get_if<GridShape>(&shape)) return pointers(grid->resolution);
     if (auto* cylinder = std::get_if<CylinderShape>(&shape)) return pointers(cylinder->resolution);
-    if (auto* block = std::get_if<BlockShape>(&shape)) return pointers(block->resolution);
-    return {};
+    auto* block = std::get_if<BlockShape>(&shape);
+    if (block == nullptr) return {};
+    std::vector<Count> list = pointers(block->resolution);
+    for (std::size_t k = 0; k < 2; ++k) {
+        list[k].least = std::max(list[k].least, least_resolution(*block)[k]);
+    }
+    return list;
 }
 
-int scaled(int resolution, double factor) {
-    // 3 around a cylinder is the least; a grid can spare the difference to 2.
-    return std::max(3, static_cast<int>(std::lround(resolution * factor)));
+void scale(Shape& shape, double factor) {
+    for (const Count& count : resolutions_of(shape)) {
+        *count.value =
+            std::max(count.least, static_cast<int>(std::lround(*count.value * factor)));
+    }
 }
 
 /// Vertices of a generated shape if its resolutions were scaled.
 double vertices_of(Shape shape, double factor) {
-    const std::vector<int*> resolutions = resolutions_of(shape);
+    if (factor != 1.0) scale(shape, factor);
+    const auto* block = std::get_if<BlockShape>(&shape);
+    if (block != nullptr && !block->outline.empty()) {
+        return outlined_vertex_count(block->resolution, block->outline);
+    }
+    const std::vector<Count> resolutions = resolutions_of(shape);
     double product = resolutions.empty() ? 0.0 : 1.0;
-    for (const int* count : resolutions) product *= factor == 1.0 ? *count : scaled(*count, factor);
+    for (const Count& count : resolutions) product *= *count.value;
     return product;
 }
 
@@ -43,10 +62,6 @@ double vertices_of(const Scene& scene, double factor) {
     for (const Cloth& cloth : scene.cloths) sum += vertices_of(cloth.shape, factor);
     for (const Solid& solid : scene.solids) sum += vertices_of(solid.shape, factor);
     return sum;
-}
-
-void scale(Shape& shape, double factor) {
-    for (int* count : resolutions_of(shape)) *count = scaled(*count, factor);
 }
 
 }  // namespace
@@ -66,6 +81,12 @@ void scale_resolutions(Scene& scene, int vertices) {
     const double factor = low_is_nearer ? low : high;
     for (Cloth& cloth : scene.cloths) scale(cloth.shape, factor);
     for (Solid& solid : scene.solids) scale(solid.shape, factor);
+}
+
+std::array<int, 2> least_resolution(const BlockShape& block) {
+    if (block.outline.empty()) return {2, 2};
+    return {static_cast<int>(block.outline.front().size()) + 1,
+            static_cast<int>(block.outline.size()) + 1};
 }
 
 void check_vertex_count(const Scene& scene) {

@@ -52,6 +52,10 @@ struct CylinderShape {
 struct BlockShape {
     std::array<double, 3> size{};     ///< [m] along x, y and z
     std::array<int, 3> resolution{};  ///< vertices along x, y and z, >= 2
+    /// A picture of its x-y side, rows from the top, all as long: only cells whose middle is in a
+    /// '#' are there, and only their vertices, in the same order. Such a block has no names for
+    /// corners and faces. Empty: all of it.
+    std::vector<std::string> outline{};
 };
 
 /// Of cloth a Wavefront OBJ file, of a solid a Gmsh (.msh) or VTK (.vtk) file.

@@ -26,11 +26,6 @@ void refuse_contact(const Scene& scene) {
             "\"jpgd\" or \"xpbd\"",
             path, name_of(method)));
     }
-    if (!scene.seams.empty() || !scene.attachments.empty()) {
-        throw UserError(path +
-                        ": [contact] does not go with [[seam]] and [[attachment]] yet: it "
-                        "would push apart what they tie together");
-    }
     if (method == Method::kXpbd && scene.contact->friction.value_or(0.0) > 0.0) {
         throw UserError(path +
                         ": contact.friction is not there yet for xpbd; leave it out, or take "

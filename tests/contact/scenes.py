@@ -138,6 +138,38 @@ def knife(frames=120):
                     "translate = [0, 0.06, 0]\n" + carried("velocity = [0, -0.4, 0]")))
 
 
+BAG = (13, 17)  # vertices across and along
+
+
+def bag(frames=300):
+    """Two panels, sewn on three sides within 0.1 s; three blocks fall between them, and have to
+    stay there."""
+    panels = "".join(
+        cloth(name, grid(0.24, 0.32, *BAG), f"rotate = [1, 0, 0, 90]\ntranslate = [0, 0, {z}]\n{pins}")
+        for name, z, pins in (("front", 0.03, "pins = { corners = [\"x-z-\", \"x+z-\"] }"),
+                              ("back", -0.03, "")))
+    sides = "edges = [\"x-\", \"z+\", \"x+\"]"
+    seam = f"""
+[[seam]]
+a = {{ cloth = "front", {sides} }}
+b = {{ cloth = "back", {sides} }}
+stiffness = 500.0
+time = 0.1
+"""
+    blocks = "".join(block(f"block{i}", "[0.03, 0.03, 0.03]", "[3, 3, 3]",
+                           f"translate = [{0.06 * (i - 1)}, {0.03 * i - 0.02}, 0.001]",
+                           density=300.0) for i in range(3))
+    return head(frames, iterations=20) + panels + seam + blocks
+
+
+def sewn_in_bag():
+    """Pairs of vertices, in the order of the scene's."""
+    across, along = BAG
+    sewn = [v for v in range(across * along)
+            if v % across in (0, across - 1) or v // across == along - 1]
+    return {(v, v + across * along) for v in sewn}
+
+
 def sphere_mesh(radius=0.5, levels=3):
     """An icosahedron, refined: 42, 162, 642 vertices."""
     t = (1.0 + math.sqrt(5.0)) / 2.0
@@ -197,6 +229,7 @@ OTHER_SOLVERS = {
     "sosd": ["fast_sheets", "needle", "pressed_blocks"],
     "jpgd": ["fast_sheets", "needle", "pressed_blocks", "knife"],
     "xpbd": ["fast_sheets", "pressed_blocks", "fold", "stack10"],
+    "newton": ["fast_sheets", "needle", "pressed_blocks", "knife"],
 }
 
 # What is led further in a substep than others can give way.
@@ -204,6 +237,9 @@ TOO_FAST = {
     "sphere20": hit_sphere(20.0),
     "sphere100": hit_sphere(100.0),
 }
+
+# What is sewn together lies upon each other: the oracle has to be told.
+SEWN_SOLVERS = ["vbd", "sosd", "jpgd", "xpbd"]
 
 # Takes minutes.
 LONG = {

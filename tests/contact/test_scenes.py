@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 
 import h5py
+import numpy
 import pytest
 
 import scenes
@@ -46,6 +47,20 @@ def test_nothing_passes(tmp_path, text):
     assert oracle.steps_that_collide(run) == []
     if "sheet9" in text:  # a stack stays one
         assert oracle.are_in_order(run)
+
+
+@pytest.mark.parametrize("solver", scenes.SEWN_SOLVERS)
+def test_what_is_sewn_holds_what_falls_into_it(tmp_path, solver):
+    run, summary = simulate(tmp_path, scenes.bag().replace('"vbd"', f'"{solver}"'))
+    sewn = scenes.sewn_in_bag()
+    for positions in run.positions:
+        assert oracle.crossings_but_of_sewn(run, positions, sewn) == []
+    apart = oracle.without_vertices(run, {v for pair in sewn for v in pair})
+    assert oracle.steps_that_collide(apart) == []
+    last = run.positions[-1]
+    assert max(numpy.linalg.norm(last[a] - last[b]) for a, b in sewn) < 0.003
+    blocks = last[numpy.unique(run.triangles[run.bodies > 1])]
+    assert blocks[:, 1].min() > last[:, 1].min() and summary["contact"]["lost"] == 0
 
 
 def test_piles_that_fall_in_long_frames_stay_whole(tmp_path):

@@ -267,11 +267,12 @@ void find_triangles_case(KernelCase& c) {
     auto& corners = add_numbers(c, "corners", 3 * triangles, c.items);
     Boxes boxes(c, "boxes", triangles, 0.6f);
     enclose(patches.boxes, patches.count, begin, boxes);
+    auto& knots = add_numbers(c, "knots", c.items, c.items);
     Features f(c, c.items, triangles);
     Table table(c, "vt", c.items, 3);
     c.launch = launch(kernels::find_triangles, c.segments, points, patches.of_item,
                       patches.near.rows, patches.near.counts, patches.near.others,
-                      patches.boxes.low, patches.boxes.high, begin, corners, boxes.low, boxes.high,
+                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low, boxes.high,
                       f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
                       table.needs, table.others, c.items, triangles, kHalo, kLeast, kInstance);
 }
@@ -292,11 +293,12 @@ void find_vertices_case(KernelCase& c) {
                     {x.x - q, x.y - q, x.z - q, 0.0f}, {x.x + q, x.y + q, x.z + q, 0.0f});
         }
     }
+    auto& knots = add_numbers(c, "knots", vertices, vertices);
     Features f(c, vertices, c.items);
     Table table(c, "tv", c.items, 3);
     c.launch = launch(kernels::find_vertices, c.segments, points, patches.of_item,
                       patches.near.rows, patches.near.counts, patches.near.others,
-                      patches.boxes.low, patches.boxes.high, begin, corners, boxes.low, boxes.high,
+                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low, boxes.high,
                       f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
                       table.needs, table.others, c.items, kHalo, kLeast, kInstance);
 }
@@ -307,12 +309,13 @@ void find_edges_case(KernelCase& c) {
     for (int i = 0; i < c.items; ++i) begin[at(patches.of_item[at(i)] + 1)] = i + 1;
     auto& points = add_points(c, "points", c.items + 2);
     auto& ends = add_numbers(c, "ends", 2 * c.items, c.items + 2);
+    auto& knots = add_numbers(c, "knots", c.items + 2, c.items + 2);
     Boxes boxes(c, "boxes", c.items, 0.6f);
     enclose(patches.boxes, patches.count, begin, boxes);
     Table table(c, "ee", c.items, 3);
     c.launch = launch(kernels::find_edges, c.segments, points, patches.of_item, patches.near.rows,
                       patches.near.counts, patches.near.others, patches.boxes.low,
-                      patches.boxes.high, begin, ends, boxes.low, boxes.high, table.rows,
+                      patches.boxes.high, begin, ends, knots, boxes.low, boxes.high, table.rows,
                       table.counts, table.needs, table.others, c.items, kHalo, kLeast, kInstance);
 }
 

@@ -28,6 +28,7 @@ public:
     std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
     Launch energy_terms(const TermTarget& target) override;
     int block_columns() const override { return 6; }
+    bool brings_together() const override { return true; }
     std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
     void reserve(int substeps) override;
     void place(double time, double h) override;

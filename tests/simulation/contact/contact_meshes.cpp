@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "simulation/families/convert.h"
 
@@ -33,10 +34,12 @@ void order(ContactMesh& m) {
     };
     reorder(m.mesh.rest);
     reorder(m.mesh.held);
+    reorder(m.mesh.knots);
     reorder(m.anchors);
 }
 
 void add_vertex(ContactMesh& m, Vec3 rest, Vec3 anchor, float reach) {
+    m.mesh.knots.push_back(static_cast<int>(m.mesh.rest.size()));
     m.mesh.rest.push_back(rest);
     m.mesh.held.push_back(0);
     m.anchors.push_back(to_float4(anchor, static_cast<double>(reach)));
@@ -89,6 +92,17 @@ ContactMesh soup(unsigned seed, int vertices, int triangles, bool degenerate) {
     return m;
 }
 
+/// Ties the last column of sheet 0 to the first of sheet 1, and every fifth vertex of sheet 0 to
+/// that of sheet 2.
+void tie_sheets(ContactMesh& m, int width, int height) {
+    const int size = width * height;
+    std::vector<int> same(m.mesh.rest.size());
+    std::iota(same.begin(), same.end(), 0);
+    for (int row = 0; row < height; ++row) same[at(size + row * width)] = row * width + width - 1;
+    for (int v = 0; v < size; v += 5) same[at(2 * size + v)] = v;
+    for (int& knot : m.mesh.knots) knot = same[at(knot)];
+}
+
 Vec3 shaken(Vec3 x, double size, Random& random) {
     const float4 by = random.point(static_cast<float>(size));
     return x + to_vec3(by);
@@ -136,6 +150,14 @@ std::vector<ContactMesh> contact_meshes() {
     all.push_back(sheets("in one place", 1, 7, 7, 0.2f, 0.1f, [](int, int, int) {
         return Vec3{1.0, 2.0, 3.0};
     }));
+    // Two sheets in one plane, sewn together where their borders lie upon each other, and a third
+    // one above that is tied to the first in places.
+    all.push_back(sheets("sewn", 3, 8, 12, 0.3f, 0.1f, [&](int sheet, int column, int row) {
+        const bool above = sheet == 2;
+        return shaken({column + 7.0 * (sheet % 2), above ? 0.2 : 0.0, row + (above ? 0.3 : 0.0)},
+                      above ? 0.05 : 0.0, random);
+    }));
+    tie_sheets(all.back(), 8, 12);
     all.push_back(soup(1, 150, 120, false));
     all.push_back(soup(2, 150, 120, true));
     all.push_back(flat_sheet(12));

@@ -46,6 +46,15 @@ PairOracle::PairOracle(const ContactMesh& mesh, const Surface& surface,
     for (int p = 0; p < surface.patch_count(); ++p) patches_.push_back(patch(p));
 }
 
+template <class A, class B>
+bool PairOracle::share_a_knot(const A& a, const B& b) const {
+    const auto knot = [&](int v) {
+        return mesh_.mesh.knots[index(surface_.vertices[index(v)])];
+    };
+    return std::ranges::any_of(
+        a, [&](int v) { return std::ranges::find(b, knot(v), knot) != b.end(); });
+}
+
 Vec3 PairOracle::at(int vertex) const {
     return to_vec3(mesh_.anchors[index(surface_.vertices[index(vertex)])]);
 }
@@ -261,7 +270,7 @@ Verdict PairOracle::pushes(int vertex, int triangle, const Distance& d) const {
 Verdict PairOracle::vertex_triangle(int vertex, int triangle) const {
     const auto& t = surface_.triangles[index(triangle)];
     const std::array<int, 1> v{vertex};
-    if (share(v, t) || !boxes_meet(v, t)) return Verdict::kNone;
+    if (share_a_knot(v, t) || !boxes_meet(v, t)) return Verdict::kNone;
     const Verdict together =
         near(patch_of_vertex_[index(vertex)], patch_of_triangle_[index(triangle)]);
     if (together == Verdict::kNone) return together;
@@ -274,7 +283,7 @@ Verdict PairOracle::vertex_triangle(int vertex, int triangle) const {
 Verdict PairOracle::edge_edge(int edge, int other) const {
     const auto& e = surface_.edges[index(edge)];
     const auto& f = surface_.edges[index(other)];
-    if (share(e, f) || !boxes_meet(e, f)) return Verdict::kNone;
+    if (share_a_knot(e, f) || !boxes_meet(e, f)) return Verdict::kNone;
     const Verdict together = near(patch_of_edge_[index(edge)], patch_of_edge_[index(other)]);
     if (together == Verdict::kNone) return together;
     const Distance d = between(edge, other);

@@ -38,6 +38,8 @@ private:
     /// Whether these patches are looked at together.
     Verdict near(int p, int q) const;
     template <class A, class B>
+    bool share_a_knot(const A& a, const B& b) const;
+    template <class A, class B>
     bool boxes_meet(const A& a, const B& b) const;
     Verdict verdict(double d, double reaches, Verdict pushes) const;
     Verdict pushes(int vertex, int triangle, const Distance& d) const;

@@ -53,6 +53,23 @@ TEST(Block, FillsItsVolumeWithPositiveTetrahedra) {
     EXPECT_EQ(mesh.positions[1], (Vec3{0.0, -1.0, -0.25}));
 }
 
+/// An L of three of four squares, with two cells to each side of a square.
+TEST(Block, HasItsOutline) {
+    const std::vector<std::string> outline{"#.", "##"};
+    const TetMesh mesh = make_outlined_block({1.0, 1.0, 0.5}, {5, 5, 3}, outline);
+    EXPECT_EQ(mesh.tetrahedron_count(), 6 * 12 * 2);
+    EXPECT_EQ(mesh.vertex_count(), 3 * (25 - 4));
+    EXPECT_EQ(outlined_vertex_count({5, 5, 3}, outline), 3 * (25 - 4));
+    EXPECT_NEAR(volume(mesh), 0.75 * 0.5, 1e-12);
+    EXPECT_NEAR(volume_inside(mesh, boundary_faces(mesh)), 0.75 * 0.5, 1e-12);
+    for (const Vec3& x : mesh.positions) {
+        EXPECT_FALSE(x.x > 1e-9 && x.y > 1e-9) << "the upper right is not there";
+    }
+    EXPECT_EQ(mesh.positions.front(), (Vec3{-0.5, -0.5, -0.25}));
+    // Cells that lie in two places are in that of their middle.
+    EXPECT_EQ(make_outlined_block({1.0, 1.0, 0.5}, {4, 4, 2}, outline).tetrahedron_count(), 6 * 7);
+}
+
 TEST(TetMesh, BoundaryOfTwoLeavesTheirCommonFaceOut) {
     const TetMesh mesh = two();
     const auto faces = boundary_faces(mesh);

@@ -94,9 +94,20 @@ TEST(StartContacts, PassOverWhatContactDoesNotLookAt) {
     expect_silence(sheet("a", held) + sheet("b", std::string(kUpright) + "\n" + held));
     const std::string cross = sheet("a", "", "[2, 2]") + sheet("b", kUpright, "[2, 2]");
     EXPECT_NE(told_of(cross).error, "");
-    const std::string tie =
-        "[[attachment]]\na = \"a\"\nb = \"b\"\nvertices = [0, 1, 2, 3]\nstiffness = 1.0\n";
-    expect_silence(cross + tie);
+}
+
+/// Two sheets that are hinged to each other along an edge.
+TEST(StartContacts, PassOverWhatIsTiedTogetherInOnePlace) {
+    const std::string hinged =
+        sheet("a", "") + sheet("b", "rotate = [1, 0, 0, 30]\ntranslate = [0, -0.25, -0.0669873]");
+    EXPECT_EQ(told_of(hinged).warnings.size(), 1u) << "they touch";
+    const auto tie = [](const std::string& at) {
+        return "[[attachment]]\na = \"a\"\nb = \"b\"\n" + at + "\nstiffness = 1.0\n";
+    };
+    expect_silence(hinged + tie("edges = [\"z-\"]"));
+    // What is tied at a distance still touches, and crosses.
+    const std::string cross = sheet("a", "", "[2, 2]") + sheet("b", kUpright, "[2, 2]");
+    EXPECT_EQ(told_of(cross + tie("vertices = [0, 1, 2, 3]")).error, told_of(cross).error);
 }
 
 TEST(StartContacts, OfABodyWithItselfOnlyIfItIsAskedFor) {

@@ -64,6 +64,37 @@ TEST(ReadScene, ReadsContact) {
     EXPECT_EQ(full.contact->stiffness, 2.0);
 }
 
+TEST(ReadScene, MakesCopies) {
+    const Scene scene = parse_scene(R"(
+[scene]
+frames = 1
+dt = 0.01
+[[cloth]]
+name = "sheet"
+grid = { size = [1, 1], resolution = [3, 3] }
+density = 0.2
+stretch = { stiffness = 100 }
+translate = [0, 1, 0]
+rotate = [1, 0, 0, 90]
+copies = { count = 3, translate = [0, 0.5, 0.1], rotate = [0, 1, 0, 30] }
+pins = { corners = ["x-z-"] }
+[[cloth]]
+grid = { size = [1, 1], resolution = [3, 3] }
+density = 0.2
+stretch = { stiffness = 100 }
+)",
+                                    "s.toml");
+    ASSERT_EQ(scene.cloths.size(), 4U);
+    const std::vector<std::string> names{"sheet", "sheet.1", "sheet.2", "cloth1"};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(scene.cloths[i].name, names[i]);
+    const Cloth& last = scene.cloths[2];
+    EXPECT_EQ(last.transform.translate, (Vec3{0, 2, 0.2}));
+    ASSERT_EQ(last.transform.rotations.size(), 3U);
+    EXPECT_EQ(last.transform.rotations[0].degrees, 90.0);
+    EXPECT_EQ(last.transform.rotations[2].degrees, 30.0);
+    EXPECT_EQ(last.pins.size(), 1U);
+}
+
 TEST(ReadScene, ReadsSolidsMembranesAndAttachments) {
     const Scene scene = parse_scene(test::kFullScene, "full.toml");
     const Solid& brick = scene.solids[0];
