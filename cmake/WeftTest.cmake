@@ -1,4 +1,5 @@
-# Tests. Labels: unit kernels scheduler determinism cli cluster stability fuzz install bench-smoke.
+# Tests. Labels: unit kernels scheduler determinism threads cli cluster stability fuzz install
+# bench-smoke.
 # No test asserts a time: how long things take tell the benchmarks.
 #
 #   weft_test(NAME strips LABELS unit SOURCES strips_test.cpp LIBS weft::simulation)
@@ -21,6 +22,10 @@
 # `<name>.oclgrind`. The interpreter is about a thousand times slower than a device, so
 # OCLGRIND_FILTER <gtest filter> chooses its small cases, and OCLGRIND_FILTER none leaves it out.
 #
+# Label `threads` has what runs on several threads at a time: what the thread sanitizer looks at. The
+# targets `threads` and `oclgrind` build the programs of those entries alone, so that a sanitizer
+# does not have to build everything.
+#
 # All take TIMEOUT <seconds> (default 300). Entries labelled `bench-smoke` run alone.
 
 find_package(GTest REQUIRED)
@@ -32,11 +37,17 @@ set(WEFT_TEST_ENVIRONMENT
     TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/sanitizers/tsan.txt
     UBSAN_OPTIONS=print_stacktrace=1)
 
+add_custom_target(threads)
+add_custom_target(oclgrind)
+
 function(weft_test)
   cmake_parse_arguments(ARG "" "NAME;TIMEOUT;OCLGRIND_FILTER;SHARDS" "LABELS;SOURCES;LIBS" ${ARGN})
   add_executable(test_${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(test_${ARG_NAME} PRIVATE ${ARG_LIBS} weft::options weft::warnings
                                                  GTest::gtest_main)
+  if(threads IN_LIST ARG_LABELS)
+    add_dependencies(threads test_${ARG_NAME})
+  endif()
   if(ARG_SHARDS)
     math(EXPR last "${ARG_SHARDS} - 1")
     foreach(shard RANGE ${last})
@@ -94,6 +105,7 @@ function(weft_oclgrind_test)
   find_program(OCLGRIND oclgrind REQUIRED)
   list(POP_FRONT ARG_COMMAND program)
   if(TARGET ${program})
+    add_dependencies(oclgrind ${program})
     set(program $<TARGET_FILE:${program}>)
   endif()
   add_test(NAME ${ARG_NAME}.oclgrind

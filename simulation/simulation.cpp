@@ -106,7 +106,10 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
                         options.device_options.strict_math});
     if (!options.calibrate) return;
     calibrate(warnings);
-    if (has_async_choice()) choose_async(warnings);
+    if (has_async_choice())
+        choose_async(warnings);
+    else if (options_.may_be_async && options_.plan == PlanKind::kAuto)
+        async_choice_ = "not async: " + why_no_async_choice();
 }
 
 Simulation::~Simulation() = default;
@@ -219,6 +222,18 @@ bool Simulation::has_async_choice() const {
                          options_.iterates == 1 && options_.on_trouble != OnTrouble::kIgnore;
     return is_open && run_->division_by_units().devices().size() > 1 && !model_->scene.contact &&
            !solver_->asynchrony().kinds.empty();
+}
+
+std::string Simulation::why_no_async_choice() const {
+    if (solver_->asynchrony().kinds.empty()) {
+        return fmt::format("{} has no asynchronous form", name_of(model_->scene.solver.method));
+    }
+    if (model_->scene.contact) {
+        return "with [contact] nobody can say how many iterations more it needs; --plan async "
+               "takes it all the same";
+    }
+    if (run_->division_by_units().devices().size() < 2) return "one device has nobody to wait for";
+    return "it is said who does what";
 }
 
 /// Once, before the first frame: the results of a run are those of one kind of plan.

@@ -142,6 +142,7 @@ private:
     void hand_over_placed();
     void calibrate(Warnings& warnings);
     bool has_async_choice() const;
+    std::string why_no_async_choice() const;
     void choose_async(Warnings& warnings);
     void fetch();
     bool advance_from_start(const FrameDetails& details, FrameRecord& frame);

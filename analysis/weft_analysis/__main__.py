@@ -1,4 +1,4 @@
-"""python -m weft_analysis makespan|energy TRACE -o out.png, surface GEOMETRY, sweep CSV"""
+"""python -m weft_analysis makespan|energy TRACE -o out.png, surface GEOMETRY, sweep CSV, convergence SCENE"""
 
 import argparse
 import sys
@@ -11,7 +11,7 @@ def main(arguments=None):
     # Imported late: matplotlib takes a second, and a wrong path should not.
     import matplotlib
     matplotlib.use("Agg")
-    from . import pictures, surface, sweep
+    from . import convergence, pictures, surface, sweep
 
     try:
         if options.command == "surface":
@@ -22,6 +22,11 @@ def main(arguments=None):
             figure = sweep.plot(sweep.read(options.results), options.x, options.y, options.colour,
                                 options.panel)
             figure.savefig(options.output, dpi=150)
+            return 0
+        if options.command == "convergence":
+            figure = convergence.convergence(options.weft, options.scene, options.devices,
+                                             options.iterations)
+            figure.savefig(options.output, dpi=100)
             return 0
         with Trace(options.trace) as trace:
             figure = getattr(pictures, options.command)(trace)
@@ -58,6 +63,17 @@ def _parse(arguments):
     swept.add_argument("--colour", help="column: a colour per value")
     swept.add_argument("--panel", help="column: a panel per value")
     swept.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
+    converged = commands.add_parser(
+        "convergence", help="how asynchronous iterations converge: the paper's figures 4 and 7",
+        description="Runs weft error and weft run, and draws the paper's figures 4 and 7 for a "
+                    "scene; prints where each curve ends.")
+    converged.add_argument("scene", metavar="SCENE", help="of cloth, with a ball as an obstacle")
+    converged.add_argument("--weft", default="weft", help="the program (default: weft)")
+    converged.add_argument("--devices", default="cpu/1+cpu/1",
+                           help="two of one speed (default: cpu/1+cpu/1)")
+    converged.add_argument("--iterations", type=int, default=100,
+                           help="that curves go to (default: 100)")
+    converged.add_argument("-o", "--output", required=True, help="picture: .png, .svg or .pdf")
     return parser.parse_args(arguments)
 
 

@@ -81,7 +81,7 @@ WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, r
 
 /// Adds the contacts' part of each vertex' gradient and Hessian block.
 /// positions   [vertices] xyz [m]
-/// snapshots   [2 * vertices] xyz, of even and of odd iterations [m]
+/// even, odd   [vertices] xyz, the snapshot of even and that of odd iterations [m]
 /// vertices    [items] the vertex of each item
 /// rows        [2 * vertices] column-major: where the vertex' entries start, room for how many
 /// counts      [vertices] how many there are
@@ -93,18 +93,18 @@ WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, r
 /// friction    Coulomb coefficient; 0: none
 /// creep       the way in a substep below which friction sticks [m]
 WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
-            WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* vertices,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
-            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* sums, int item_count,
-            int vertex_count, int iteration, float friction, float creep) {
+            WEFT_GLOBAL const float4* even, WEFT_GLOBAL const float4* odd,
+            WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+            WEFT_GLOBAL float* sums, int item_count, int iteration, float friction, float creep) {
     const integer vertex = load_index(vertices, i);
     const whole count = gather_whole(counts, vertex);
     const int longest = largest_whole(count);
     if (longest > 0) {
-        WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
+        WEFT_GLOBAL const float4* snapshot = iteration % 2 == 0 ? even : odd;
         const whole start = gather_whole(rows, vertex);
         const real3 way = subtract(xyz(gather4(positions, vertex)), xyz(gather4(snapshot, vertex)));
         derivatives s = load_derivatives(sums, i, item_count);
@@ -133,11 +133,12 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
 
 /// Lets all see the positions in the next iteration.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
-/// snapshots  [2 * vertices] written: of odd iterations in the second half
-/// next       the iteration that is to see it
-WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* snapshots,
-            int vertex_count, int iteration, int ahead) {
-    store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), load4(positions, i));
+/// even, odd  [vertices] one of them written: the snapshot of even or that of odd iterations
+/// ahead      by how many iterations behind this one is that which is to see it
+WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* even,
+            WEFT_GLOBAL float4* odd, int iteration, int ahead) {
+    WEFT_GLOBAL float4* snapshot = (iteration + ahead) % 2 == 0 ? even : odd;
+    store4(snapshot, i, load4(positions, i));
 }
 
 WEFT_KERNELS_END

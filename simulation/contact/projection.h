@@ -21,10 +21,12 @@ public:
     void add_project_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
 private:
+    Launch share(int ahead);
+
     Model& model_;
     ContactRows rows_;
+    ContactResponse::Snapshots& snapshots_;
     Buffer<float>& multipliers_;  ///< [entries of the rows]
-    Buffer<float4> snapshots_;    ///< [2 * vertices]
 };
 
 }  // namespace weft

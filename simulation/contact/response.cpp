@@ -140,7 +140,8 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       nearest_("contact.nearest", model.positions->count()),
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
-      snapshots_("contact.snapshots", 2 * model.positions->count()),
+      snapshots_{Buffer<float4>("contact.even", model.positions->count()),
+                 Buffer<float4>("contact.odd", model.positions->count())},
       energy_(model, rows(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
     copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
@@ -165,7 +166,7 @@ void ContactResponse::make_fill() {
                 corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
                 model_.vertex_count(), pairs_.surface().triangle_count(),
                 pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
-         truncation(*model_.positions, kStartSlack * range_), snapshot(*model_.positions, 0),
+         truncation(*model_.positions, kStartSlack * range_),
          launch(kernels::find_strays, pairs_.buffers().patches.segments, pairs_.patch_low(),
                 pairs_.patch_high(), static_cast<Buffer<int>&>(pairs_.buffers().bodies),
                 motion_.carried(), motion_.chunk_of(), motion_.fences(), motion_.strays(),
@@ -240,8 +241,8 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     }
     task.updates(least_, first, last)
         .updates(nearest_, first, last)
-        .updates(cut_, first, last)
-        .updates(snapshots_, first, last);
+        .updates(cut_, first, last);
+    for (Buffer<float4>& shown : snapshots_) task.updates(shown, first, last);
     const Segments& patches = pairs_.buffers().patches.segments;
     const std::pair own(patches.item(region.begin), patches.item(region.end));
     task.reads(pairs_.patch_low(), own.first, own.second)
@@ -262,30 +263,28 @@ void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region
 
 Launch ContactResponse::gather(const Segments& segments, Buffer<float4>& positions,
                                VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, positions, snapshots_, model_.vertex_count(), items, sums);
+    return gather_from(segments, positions, snapshots_[0], snapshots_[1], items, sums);
 }
 
-/// No second half, and no way from there.
+/// In all iterations, and no way from there.
 Launch ContactResponse::gather_at(const Segments& segments, Buffer<float4>& shared,
                                   VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, shared, shared, 0, items, sums);
+    return gather_from(segments, shared, shared, shared, items, sums);
 }
 
 Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& positions,
-                                    Buffer<float4>& snapshots, int second_half, VertexItems& items,
+                                    Buffer<float4>& even, Buffer<float4>& odd, VertexItems& items,
                                     Buffer<float>& sums) {
-    return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
+    return launch(kernels::gather_contacts, segments, positions, even, odd, items.vertices(),
                   contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration,
-                  friction_, creep_);
+                  normals_, weights_, measures_, sums, items.count(), kIteration, friction_,
+                  creep_);
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
                                           int end_strip) {
     const auto [first, last] = vertices(first_strip, end_strip);
-    const int all = model_.vertex_count();
-    const int half = iteration % 2 * all;
-    task.reads(snapshots_, half, half + all);
+    task.reads(snapshots_[static_cast<std::size_t>(iteration % 2)], 0, model_.vertex_count());
     rows().add_reads(task, first_strip, end_strip, first, last);
 }
 
@@ -296,8 +295,8 @@ Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
-    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_,
-                  model_.vertex_count(), kIteration, ahead);
+    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_[0],
+                  snapshots_[1], kIteration, ahead);
 }
 
 void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions) {
@@ -318,8 +317,17 @@ void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>
 
 void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
                                             int last) {
-    const int half = (iteration + 1) % 2 * model_.vertex_count();
-    task.updates(snapshots_, half + first, half + last);
+    task.updates(snapshots_[static_cast<std::size_t>((iteration + 1) % 2)], first, last);
+}
+
+void ContactResponse::show_start() {
+    show_start(snapshot(*model_.positions, 0), snapshot(*model_.positions, 1));
+}
+
+/// Both, since somebody who hears late of others sees of them in iteration 1 where they began.
+void ContactResponse::show_start(Launch even, Launch odd) {
+    fill_.launches.push_back(std::move(even));
+    fill_.launches.push_back(std::move(odd));
 }
 
 void ContactResponse::add_count(std::vector<Launch>& launches) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -60,6 +61,13 @@ public:
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
 
+    /// [vertices] each: what gather() and its like see in even and in odd iterations.
+    using Snapshots = std::array<Buffer<float4>, 2>;
+    Snapshots& snapshots() { return snapshots_; }
+    /// What a substep begins with in both: for solvers that have gather(). Others make theirs.
+    void show_start();
+    void show_start(Launch even, Launch odd);
+
     /// At a substep's end: counts who was taken back.
     void add_count(std::vector<Launch>& launches);
     void add_count_accesses(Step::Adding& task, int first, int last);
@@ -94,10 +102,8 @@ private:
     void make_fill();
     void add_fill(Step& step, const Region& region);
     void add_pair_accesses(Step::Adding& task, const Region& region);
-    /// second_half: where it begins
-    Launch gather_from(const Segments& segments, Buffer<float4>& positions,
-                       Buffer<float4>& snapshots, int second_half, VertexItems& items,
-                       Buffer<float>& sums);
+    Launch gather_from(const Segments& segments, Buffer<float4>& positions, Buffer<float4>& even,
+                       Buffer<float4>& odd, VertexItems& items, Buffer<float>& sums);
     Launch truncation(Buffer<float4>& positions, float soft);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
@@ -119,7 +125,7 @@ private:
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
-    Buffer<float4> snapshots_;
+    Snapshots snapshots_;
     TaskBody fill_;
     ContactEnergy energy_;
 };

@@ -92,10 +92,20 @@ AsyncIterates::AsyncIterates(const Model& model, std::unique_ptr<Solver> solver,
             "--plan async: the scene's solver has no asynchronous form; xpbd, vbd, sosd "
             "and jpgd have one");
     }
-    if (model.scene.contact) {
-        throw UserError("--plan async: [contact] has no asynchronous form yet");
-    }
+    if (model.scene.contact) check_contact();
     add_exchanges();
+}
+
+/// What keeps surfaces apart has the last word over all that devices have made of each other.
+void AsyncIterates::check_contact() const {
+    if (settings_.settle == 0) {
+        throw UserError(
+            "--async settle=0: with [contact] at least the last iteration is in step, or surfaces "
+            "might pass through each other");
+    }
+    if (by_kinds()) {
+        throw UserError("--async tasks=kinds: [contact] is not told apart by kinds yet");
+    }
 }
 
 /// All that maps may ask for: an executor has to know them before there is a map.
@@ -155,7 +165,8 @@ std::vector<std::string> AsyncIterates::kinds() const {
 }
 
 bool AsyncIterates::is_asynchronous(const Task& task) const {
-    const int settle = settings_.settle.value_or(model_.obstacles ? 1 : 0);
+    const bool has_last_word = model_.obstacles || model_.scene.contact;
+    const int settle = settings_.settle.value_or(has_last_word ? 1 : 0);
     if (task.iteration >= model_.scene.solver.iterations - settle) return false;
     const Asynchrony asynchrony = solver_->asynchrony();
     if (task.iteration % asynchrony.round < asynchrony.in_step) return false;

@@ -26,6 +26,7 @@ public:
     std::vector<std::string> kinds() const override;
     std::vector<BufferStorage*> state() override { return solver_->state(); }
     std::vector<RowTable*> tables() override { return solver_->tables(); }
+    ContactResponse* contact() override { return solver_->contact(); }
     std::vector<Buffer<float4>*> iterate() override { return solver_->iterate(); }
     int iterate_count() const override { return iterates_.count(); }
     std::vector<const Buffer<float4>*> other_iterates() const override {
@@ -46,6 +47,7 @@ private:
     using Bodies = std::map<std::tuple<std::size_t, int, int, int>, std::unique_ptr<TaskBody>>;
     static constexpr int kCopies = -1;  ///< for the start: there is none
 
+    void check_contact() const;
     void add_exchanges();
     void add_copy(std::size_t buffer, int from, int to);
     void add_merge(std::size_t buffer, int start, int from, int to);

@@ -8,6 +8,7 @@ SweepSolver::SweepSolver(Model& model)
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
+    if (substep_.contact() != nullptr) substep_.contact()->show_start();
     if (substep_.has_free_bodies()) {
         momentum_ = {"momentum", substep_.kind_of_momentum(),
                      substep_.sum_momentum(*model.positions)};
@@ -58,10 +59,13 @@ std::vector<std::string> SweepSolver::kinds() const {
     return names;
 }
 
-/// Obstacles push x~ along, which seams read.
+/// Obstacles push x~ along, which seams read. Of what may touch its own, a part knows what all see.
 std::vector<Buffer<float4>*> SweepSolver::iterate() {
-    if (!model_.obstacles) return {model_.positions.get()};
-    return {model_.positions.get(), &substep_.targets()};
+    std::vector<Buffer<float4>*> buffers{model_.positions.get()};
+    if (model_.obstacles) buffers.push_back(&substep_.targets());
+    if (substep_.contact() == nullptr) return buffers;
+    for (Buffer<float4>& shown : substep_.contact()->snapshots()) buffers.push_back(&shown);
+    return buffers;
 }
 
 Solver::Asynchrony SweepSolver::asynchrony() const { return {{kSeams, kStrips}, {}}; }

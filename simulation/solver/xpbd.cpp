@@ -57,7 +57,12 @@ public:
     }
     ContactResponse* contact() override { return contact_.get(); }
 
-    std::vector<Buffer<float4>*> iterate() override { return {model_.positions.get()}; }
+    std::vector<Buffer<float4>*> iterate() override {
+        std::vector<Buffer<float4>*> buffers{model_.positions.get()};
+        if (!contact_) return buffers;
+        for (Buffer<float4>& shown : contact_->snapshots()) buffers.push_back(&shown);
+        return buffers;
+    }
 
     /// The multipliers count every motion in full, so it must not be lost: where half of it is,
     /// they and the positions do not belong together any more, and iterations end elsewhere.
@@ -68,6 +73,7 @@ public:
             asynchrony.kinds.push_back(group.strips[0].kind);
             if (group.families.empty()) asynchrony.last.push_back(group.strips[0].kind);
         }
+        if (contact_) asynchrony.kinds.push_back(push_.kind);
         return asynchrony;
     }
 

@@ -270,6 +270,8 @@ def test_the_map_as_table_and_picture(single, tmp_path):
     picture = xml.parse(tmp_path / "machines.svg").getroot()
     notes = [title.text for title in picture.iter("{http://www.w3.org/2000/svg}title")]
     assert len(notes) == len(rows)
+    labels = [text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+    assert {"10", "100"} <= set(labels) and "1e+02" not in labels
     letters = [line.split()[2:] for line in result.stdout.splitlines() if " x " in line]
     assert sum(map(len, letters)) == len(rows)
     assert [row["winner"][0].upper() for row in rows] == [c for line in letters for c in line]

@@ -54,6 +54,22 @@ def test_all_files(folder):
     assert positions[-1, :, 1] == pytest.approx(-fallen, rel=0.2)
 
 
+@pytest.mark.skipif(CORES < 2, reason="needs two devices")
+@pytest.mark.parametrize("devices, arguments, why", [
+    ("cpu/1", [], "one device"),
+    ("cpu/1+cpu/1", ["--solver", "newton"], "newton has no asynchronous form"),
+    ("cpu/1+cpu/1", ["--set", "contact.thickness=0.004", "--solver", "vbd"], "[contact]"),
+    ("cpu/1+cpu/1", ["--strips", "1,1"], "it is said who does what"),
+    ("cpu/1+cpu/1", [], "would take"),
+])
+def test_auto_says_why_it_is_not_asynchronous(folder, devices, arguments, why):
+    result = weft("run", "scene.toml", "--device", devices, "--async", "", *arguments, cwd=folder)
+    assert result.returncode == 0, result.stderr
+    assert "weft: not async: " in result.stderr and why in result.stderr
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        assert why in trace["run/settings"].attrs["async_choice"]
+
+
 def test_outputs_can_be_left_out(folder):
     result = run(folder, "--no-trace", "--no-geometry")
     assert result.returncode == 0

@@ -27,12 +27,13 @@ if os.environ.get("WEFT_LONG"):
     CASES += [(f"long_{name}", text) for name, text in scenes.LONG.items()]
 
 
-def simulate(folder, text, *arguments, trace=False):
+def simulate(folder, text, *arguments, trace=False,
+             where=("--device", "cpu/1", "--plan", "single")):
     (folder / "scene.toml").write_text(text)
     (folder / "sphere.obj").write_text(scenes.sphere_mesh())
     output = [] if trace else ["--no-trace"]
-    result = subprocess.run([WEFT, "run", "scene.toml", "--device", "cpu/1", "--plan", "single",
-                             *output, "--out", "out", "--json", *arguments],
+    result = subprocess.run([WEFT, "run", "scene.toml", *where, *output, "--out", "out", "--json",
+                             *arguments],
                             cwd=folder, capture_output=True, text=True, timeout=1200)
     assert result.returncode == 0, result.stderr
     out = pathlib.Path(folder) / "out"
@@ -61,6 +62,25 @@ def test_what_is_sewn_holds_what_falls_into_it(tmp_path, solver):
     assert max(numpy.linalg.norm(last[a] - last[b]) for a, b in sewn) < 0.003
     blocks = last[numpy.unique(run.triangles[run.bodies > 1])]
     assert blocks[:, 1].min() > last[:, 1].min() and summary["contact"]["lost"] == 0
+
+
+ASYNC = {
+    "vbd": ["stack10", "twist", "needle", "fast_sheets", "landing", "knife"],
+    "sosd": ["fast_sheets", "pressed_blocks"],
+    "jpgd": ["fast_sheets", "pressed_blocks"],
+    "xpbd": ["fast_sheets", "pressed_blocks", "stack10"],
+}
+
+
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="needs two cores")
+@pytest.mark.parametrize("settings", ["", "window=3,merge=mean", "dropping=on"])
+@pytest.mark.parametrize("solver, name", [(s, n) for s, names in ASYNC.items() for n in names])
+def test_nothing_passes_where_devices_do_not_wait(tmp_path, solver, name, settings):
+    text = scenes.SHORT[name].replace('"vbd"', f'"{solver}"')
+    run, _ = simulate(tmp_path, text, "--async", settings,
+                      where=["--device", "cpu/1+cpu/1", "--plan", "async"])
+    assert oracle.frames_that_cross(run) == []
+    assert oracle.steps_that_collide(run) == []
 
 
 def test_piles_that_fall_in_long_frames_stay_whole(tmp_path):

@@ -162,23 +162,24 @@ struct Contacts {
 
 void gather_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
-    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    auto& even = add_points(c, "even", c.items);
+    auto& odd = add_points(c, "odd", c.items);
     auto& vertices = add_indices(c, "vertices", c.items, c.items);
     Contacts contacts(c);
     auto& sums = c.add<float>("sums", 9 * c.items);
     for (float& sum : sums.span()) sum = c.random.real(-1.0f, 1.0f);
-    c.launch = launch(kernels::gather_contacts, c.segments, positions, snapshots, vertices,
+    c.launch = launch(kernels::gather_contacts, c.segments, positions, even, odd, vertices,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, sums, c.items, c.items, kIteration,
+                      contacts.measures, sums, c.items, kIteration,
                       c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
 void snapshot_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
-    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
-    c.launch =
-        launch(kernels::take_snapshot, c.segments, positions, snapshots, c.items, kIteration, 1);
+    auto& even = c.add<float4>("even", c.items);
+    auto& odd = c.add<float4>("odd", c.items);
+    c.launch = launch(kernels::take_snapshot, c.segments, positions, even, odd, kIteration, 1);
 }
 
 /// What kernels over the rows of all vertices take; each vertex is a corner of its contacts.
@@ -224,20 +225,22 @@ void measure_case(KernelCase& c) {
 
 void share_case(KernelCase& c) {
     OwnContacts contacts(c);
-    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
+    auto& even = c.add<float4>("even", c.items);
+    auto& odd = c.add<float4>("odd", c.items);
     c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.counts,
-                      snapshots, c.items, kIteration);
+                      even, odd, kIteration, 1);
 }
 
 void project_case(KernelCase& c) {
     OwnContacts contacts(c);
-    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    auto& even = add_points(c, "even", c.items);
+    auto& odd = add_points(c, "odd", c.items);
     auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
     for (float& l : multipliers.span()) l = c.random.real(0.0f, 0.1f);
-    c.launch = launch(kernels::project_contacts, c.segments, contacts.positions, snapshots,
+    c.launch = launch(kernels::project_contacts, c.segments, contacts.positions, even, odd,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, multipliers, c.items, 1e4f, kIteration);
+                      contacts.measures, multipliers, 1e4f, kIteration);
 }
 
 /// Lists of random entries: begin [items + 1], list.

@@ -11,6 +11,11 @@ namespace {
 
 constexpr Colour kBlack{20, 20, 20};
 
+/// Two figures; thousands are not to be powers of ten for that.
+std::string label_of(double value) {
+    return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.4g}", value);
+}
+
 /// Where values are on an axis, in equal steps.
 class Places {
 public:
@@ -44,7 +49,7 @@ void MapPanel::draw(Canvas& canvas, Point corner) const {
     canvas.text({corner.x + 0.5 * kSize, corner.y - 6.0}, title, kText, Anchor::kMiddle, kBlack);
     for (const double value : right.values()) {
         canvas.text({corner.x + right.at(value) + 0.5 * right.step(), corner.y + kSize + 13.0},
-                    fmt::format("{:.2g}", value), 0.75 * kText, Anchor::kMiddle, kBlack);
+                    label_of(value), 0.75 * kText, Anchor::kMiddle, kBlack);
     }
     canvas.text({corner.x + 0.5 * kSize, corner.y + kSize + 28.0}, across, 0.85 * kText,
                 Anchor::kMiddle, kBlack);
