@@ -21,8 +21,11 @@ public:
     void begin(const Model& model, double time);
     /// No substep of this frame is.
     void skip() { is_begun_ = false; }
-    /// The model is at its end. None: nothing was begun, or see StepError.
-    std::optional<double> end(const Model& model);
+    bool is_begun() const { return is_begun_; }
+    /// The model is at its end; it was begun. Of its end: held and contacts as SubstepEnds has
+    /// them. None: see StepError
+    std::optional<double> end(const Model& model, std::vector<char> held,
+                              std::vector<FrozenContact> contacts);
     // Of edges, RMS. Where they become plainly longer, frames are chosen for that, too.
     /// Before anything has happened: nobody has to answer for that.
     void expect_strain(double strain) { first_strain_ = last_strain_ = most_strain_ = strain; }

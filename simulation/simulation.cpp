@@ -91,8 +91,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
                                      host_threads(devices))),
       first_substeps_(model_->scene.substeps),
       most_iterations_(model_->scene.solver.iterations) {
-    // Contact is no part of the E that the samples know.
-    if (options.on_trouble != OnTrouble::kIgnore && !model_->scene.contact) {
+    if (options.on_trouble != OnTrouble::kIgnore) {
         samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
     }
     if (samples_) samples_->expect_strain(strain_of(*model_));
@@ -373,7 +372,7 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     const double end = time() + model_->scene.dt;
     const Watch::Look look = watch_->look(*model_, *start_, time(), end, stored_in_contacts());
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
-    const auto error = samples_ && may_repeat ? samples_->end(*model_) : std::nullopt;
+    const auto error = may_repeat ? estimate() : std::nullopt;
     if (error && iterates_more(*error)) return false;
     if (error && !look.alarm && samples_->doubts(look.strain.rms, *error) &&
         !goes_on_with(doubt_of(look.strain, *error), step)) {
@@ -387,6 +386,12 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
     if (error) frame.relative_error = *error;
     return true;
+}
+
+/// Of the frame that has just run. None: its last substep is no sample.
+std::optional<double> Simulation::estimate() {
+    if (!samples_ || !samples_->is_begun()) return std::nullopt;
+    return samples_->end(*model_, held_at(time() + model_->scene.dt), contacts());
 }
 
 /// Whether the frame is to be done again with more iterations.
@@ -432,6 +437,26 @@ StoredInContacts Simulation::stored_in_contacts() {
     if (contact == nullptr) return {};
     run_->executor().fetch(contact->energy().energies());
     return contact->energy().stored();
+}
+
+std::vector<FrozenContact> Simulation::contacts() {
+    ContactResponse* contact = solver_->contact();
+    if (contact == nullptr) return {};
+    for (BufferStorage* buffer : contact->rows().buffers()) run_->executor().fetch(*buffer);
+    return with_corners(contact->frozen(), model_->strips.order);
+}
+
+std::vector<char> Simulation::held_at(double time) {
+    std::vector<char> held = held_by_obstacles(*model_, time);
+    ContactResponse* contact = solver_->contact();
+    if (contact == nullptr) return held;
+    run_->executor().fetch(contact->cut());
+    held.resize(model_->positions->count());
+    for (std::size_t v = 0; v < held.size(); ++v) {
+        if (contact->cut()[v] == 0) continue;
+        held[static_cast<std::size_t>(model_->scene_vertex(static_cast<int>(v)))] = 1;
+    }
+    return held;
 }
 
 /// What is not guaranteed is told, where it happens.

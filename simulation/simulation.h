@@ -23,6 +23,7 @@ class ErrorSamples;
 class Watch;
 struct Alarm;
 struct Energies;
+struct FrozenContact;
 struct StoredInContacts;
 
 /// What is done about a frame that ends in a state that cannot be.
@@ -125,6 +126,13 @@ public:
     /// Why PlanKind::kAuto took an asynchronous plan or did not; empty: there was no such choice.
     const std::string& async_choice() const { return async_choice_; }
 
+    /// The contacts that the last substep found where it began; corners in scene order. Empty:
+    /// none, or no [contact].
+    std::vector<FrozenContact> contacts();
+    /// Whether an obstacle, at a time [s], or contact's planes keep a vertex where it is, in scene
+    /// order. Empty: there is nothing that could.
+    std::vector<char> held_at(double time);
+
     /// For traces: everything that is known before the first frame but the command line.
     RunDescription describe() const;
 
@@ -152,6 +160,7 @@ private:
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
     bool accepts(const Step& step, bool may_repeat, FrameRecord& frame);
+    std::optional<double> estimate();
     bool iterates_more(double error);
     void iterate_less(double error);
     void tell_of_tolerance(double error);

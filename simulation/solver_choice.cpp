@@ -166,7 +166,7 @@ SolverChoice choose_solver(const Scene& given, PlanKind plan) {
     const Scene scene = with_substeps(with_method(given, Method::kVbd, usual));
     if (scene.contact) {
         return {Method::kVbd, usual, scene.substeps,
-                "the error of a step with [contact] is not measured"};
+                "solvers are not compared on steps with [contact]"};
     }
     const double wanted = scene.solver.tolerance > 0.0 ? scene.solver.tolerance : kUsualTolerance;
     return choose_measured(scene, {wanted, most}, plan);

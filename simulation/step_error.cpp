@@ -76,7 +76,16 @@ std::optional<double> StepError::of(const SubstepEnds& ends) {
         reached = energy_at(reached_);
         rounding = std::abs(energy_of_rounding(reached));
     });
-    const double minimum = refine(reached);
+    double minimum = refine(reached);
+    if (rubs_) {
+        // Friction goes by what presses at the end, for all of them.
+        const double left = reached - minimum;
+        threads_.execute([&] {
+            start = energy_at(targets_);
+            reached = energy_at(reached_);
+        });
+        minimum = reached - left;
+    }
     const double least = kLostInRounding * rounding;
     const double left = reached - minimum;
     const double error = left / std::max(start - minimum, least);
@@ -89,6 +98,7 @@ void StepError::start_at(const SubstepEnds& ends) {
     model_->place(ends.time);
     const Vec3 g = to_vec3((*model_->gravity)[0]);
     const double h = model_->h;
+    take_contacts(ends.contacts);
     for (std::size_t v = 0; v < reached_.size(); ++v) {
         const auto own = static_cast<std::size_t>(model_->strips.order[v]);
         const auto read = [&](const std::vector<float>& xyz) {
@@ -115,7 +125,28 @@ double StepError::energy_at(std::span<const float4> x) const {
         return part;
     });
     for (const auto& family : model_->families) sum += family->total_energy(x);
-    return sum;
+    return contacts_.empty() ? sum : sum + contact_energy_at(x);
+}
+
+double StepError::contact_energy_at(std::span<const float4> x) const {
+    return sum_of_blocks(static_cast<int>(contacts_.size()), [&](int begin, int end) {
+        double part = 0.0;
+        for (int c = begin; c < end; ++c) {
+            const FrozenContact& contact = contacts_[static_cast<std::size_t>(c)];
+            part += contact.energy(contact.way(x));
+        }
+        return part;
+    });
+}
+
+void StepError::take_contacts(const std::vector<FrozenContact>& contacts) {
+    contacts_ = with_corners(contacts, model_->strips.rank);
+    rubs_ = std::ranges::any_of(contacts_,
+                                [](const FrozenContact& c) { return c.rubbing.friction > 0.0; });
+}
+
+void StepError::press_as_at(std::span<const float4> x) {
+    for (FrozenContact& contact : contacts_) contact.press = contact.force(contact.way(x));
 }
 
 /// What E has more of where coordinates are off by as much as rounding leaves them, on average.
@@ -137,15 +168,15 @@ double StepError::energy_of_rounding(double reached) const {
 
 /// What the minimum of E is, given E at x.
 double StepError::refine(double reached) {
-    newton_->begin(reached_, targets_);
+    newton_->begin(reached_, targets_, contacts_);
+    for (RowTable* table : newton_->tables()) executor_->rebind(table->resized_buffers());
+    before_ = reached_;
     double least = reached;
     double last = 0.0;
     double left = 0.0;
     for (std::size_t i = 0; i < iterations_.size(); ++i) {
         executor_->run(iterations_[i].step, iterations_[i].plan, 1);
-        double energy = 0.0;
-        threads_.execute([&] { energy = energy_at(newton_->positions()); });
-        const double gain = std::max(least - energy, 0.0);
+        const double gain = gain_of_iteration(least);
         least -= gain;
         // What gains fall by tells what is still to come.
         const double ratio = last > 0.0 ? std::min(gain / last, 0.5) : 0.0;
@@ -154,6 +185,21 @@ double StepError::refine(double reached) {
         last = gain;
     }
     return least - left;
+}
+
+/// With friction, by what presses where it has led to.
+double StepError::gain_of_iteration(double least) {
+    double from = least;
+    double to = 0.0;
+    threads_.execute([&] {
+        if (rubs_) {
+            press_as_at(newton_->positions());
+            from = energy_at(before_);
+        }
+        to = energy_at(newton_->positions());
+    });
+    if (rubs_) std::ranges::copy(newton_->positions(), before_.begin());
+    return std::max(from - to, 0.0);
 }
 
 }  // namespace weft

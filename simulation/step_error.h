@@ -7,6 +7,7 @@
 
 #include "kernels/platform.h"
 #include "runtime/tbb/parallel.h"
+#include "simulation/contact/frozen.h"
 #include "simulation/scene/scene.h"
 
 namespace weft {
@@ -23,6 +24,8 @@ struct SubstepEnds {
     double time = 0.0;                         ///< of its start [s]
     /// [vertices] 1: something else than elements and inertia keeps it where it is; empty: none
     std::vector<char> held;
+    std::vector<FrozenContact>
+        contacts{};  ///< that it found where it began; corners in scene order
 };
 
 /// How far a substep was solved: an estimate of the relative error that `weft error` measures,
@@ -47,7 +50,11 @@ private:
     void start_at(const SubstepEnds& ends);
     double energy_at(std::span<const float4> positions) const;
     double energy_of_rounding(double reached) const;
+    void take_contacts(const std::vector<FrozenContact>& contacts);
+    void press_as_at(std::span<const float4> positions);
+    double contact_energy_at(std::span<const float4> positions) const;
     double refine(double reached);
+    double gain_of_iteration(double least);
 
     HostThreads threads_;
     std::unique_ptr<Model> model_;
@@ -57,6 +64,10 @@ private:
     std::vector<Iteration> iterations_;
     std::vector<float> inverse_masses_;      ///< [vertices] of the model
     std::vector<float4> targets_, reached_;  ///< [vertices] xyz, w = 1/mass, 0 for held ones
+    std::vector<FrozenContact> contacts_;
+    bool rubs_ = false;  ///< some of them
+    /// [vertices] where the iteration before ended, where that matters
+    std::vector<float4> before_;
 };
 
 }  // namespace weft

@@ -26,6 +26,7 @@ SimulationOptions on_one_core() {
     options.calibrate = false;
     options.plan = PlanKind::kSingle;
     options.on_trouble = OnTrouble::kIgnore;
+    options.on_crossing = OnCrossing::kWarn;
     return options;
 }
 
@@ -62,7 +63,8 @@ StepTrials::Result StepTrials::run(Method method, int iterations, int repetition
     }
     SubstepEnds ends = start_;
     ends.reached = simulation.positions();
-    ends.held = held_by_obstacles(simulation.model(), simulation.time());
+    ends.held = simulation.held_at(simulation.time());
+    ends.contacts = simulation.contacts();
     result.error = error_.of(ends).value_or(kNone);
     return result;
 }

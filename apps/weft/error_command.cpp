@@ -17,6 +17,8 @@
 #include "apps/weft/studies/trajectory_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
+#include "simulation/scene/method.h"
+#include "simulation/solver/solver.h"
 
 namespace weft {
 
@@ -30,13 +32,27 @@ void print_study(const ErrorOptions& options, const Study& study, const std::str
         std::cout << to_text(study) << '\n' << files << std::endl;
 }
 
-/// The reference's E has no contact in it.
 Scene scene_of(const ErrorOptions& options) {
     Scene scene = read_scene(options.run.scene, options.run.overrides());
-    if (scene.contact) {
-        throw UserError(options.run.scene + ": weft error does not know [contact] yet");
+    if (scene.contact && options.trajectory) {
+        throw UserError(options.run.scene +
+                        ": weft error --trajectory does not know [contact] yet");
     }
     return scene;
+}
+
+/// All that can do the scene.
+std::vector<std::string> solvers_for(const ErrorOptions& options) {
+    Scene scene = scene_of(options);
+    std::vector<std::string> names = method_names();
+    std::string why;
+    std::erase_if(names, [&](const std::string& name) {
+        scene.solver.method = method_named(name);
+        why = why_no_contact(scene);
+        return !why.empty();
+    });
+    if (names.empty()) throw UserError(options.run.scene + ": " + why);
+    return names;
 }
 
 std::filesystem::path make_folder(const ErrorOptions& options) {
@@ -84,7 +100,7 @@ void make_sweep_of(const ErrorOptions& options) {
 void run_error(ErrorOptions options) {
     if (options.devices.empty()) options.devices = {hybrid_devices()};
     if (options.plans.empty()) options.plans = {"auto"};
-    if (options.solvers.empty()) options.solvers = method_names();
+    if (options.solvers.empty()) options.solvers = solvers_for(options);
     if (options.as_sweep) return make_sweep_of(options);
     const std::filesystem::path folder = make_folder(options);
     if (options.trajectory)
@@ -136,7 +152,9 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
             "the step begins at the state in this file: a checkpoint (weft run "
             "--keep-checkpoint), or frames.vtkhdf, of which --frame says the frame (its last)")
         ->type_name("STATE");
-    command.add_option("--solvers", options.solvers, "solvers, separated by commas (all)")
+    command
+        .add_option("--solvers", options.solvers,
+                    "solvers, separated by commas (all that can do the scene)")
         ->delimiter(',')
         ->check(one_of(method_names()));
     command.add_option("--devices", options.devices, "device lists, separated by commas (hybrid)")

@@ -373,6 +373,27 @@ ContactRows ContactResponse::rows() {
     return {contacts_, corner0_, corner1_, corner2_, corner3_, normals_, weights_, measures_};
 }
 
+Rubbing ContactResponse::rubbing() const {
+    return {static_cast<double>(friction_), static_cast<double>(creep_)};
+}
+
+std::vector<FrozenContact> ContactResponse::frozen() {
+    return frozen_contacts(rows(), model_.positions->span(), rubbing());
+}
+
+void ContactResponse::put(std::span<const FrozenContact> contacts,
+                          std::span<const float4> positions, std::span<const float4> targets) {
+    constexpr float kNoLimit = 1e15f;
+    const ContactRows rows = this->rows();
+    fill_rows(rows, contacts, positions, targets);
+    std::ranges::fill(planes_table_.counts().span(), 0);
+    std::ranges::fill(least_.span(), kNoLimit);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        anchors_[v] = positions[v];
+        anchors_[v].w = kNoLimit;
+    }
+}
+
 ContactRecord ContactResponse::account() {
     const auto sum = [](Buffer<int>& needs) {
         return std::accumulate(needs.span().begin(), needs.span().end(), std::uint64_t{0});

@@ -12,6 +12,7 @@
 #include "runtime/trace/records.h"
 #include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
+#include "simulation/contact/frozen.h"
 #include "simulation/contact/pairs.h"
 #include "simulation/model/model.h"
 
@@ -86,6 +87,13 @@ public:
     /// [vertices] how many contacts each has.
     Buffer<int>& counts() { return contacts_.counts(); }
     ContactRows rows();
+    Rubbing rubbing() const;
+    /// Those of the last substep; the host has rows().
+    std::vector<FrozenContact> frozen();
+    /// From now on these are the contacts, and nothing is held back by planes: for those who know
+    /// what a substep has found, and solve it once more. corners: new order; targets: [vertices] x~
+    void put(std::span<const FrozenContact> contacts, std::span<const float4> positions,
+             std::span<const float4> targets);
     ContactEnergy& energy() { return energy_; }
 
 private:

@@ -13,4 +13,8 @@ void ContactRows::add_reads(Step::Adding& task, int first_strip, int end_strip, 
     }
 }
 
+std::vector<BufferStorage*> ContactRows::buffers() const {
+    return {&table.counts(), &corner0, &corner1, &corner2, &corner3, &normals, &weights, &measures};
+}
+
 }  // namespace weft

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 

@@ -39,6 +39,7 @@ void write_curve(hid_t parent, const std::string& name, const ErrorCurve& curve)
                  &ErrorPoint::relative_error);
     write_column(group.id(), "relative_error_estimate", H5T_NATIVE_DOUBLE, curve,
                  &ErrorPoint::estimate);
+    write_column(group.id(), "truncated", H5T_NATIVE_INT, curve, &ErrorPoint::truncated);
 }
 
 void write_study(const std::string& path, const ErrorStudy& study) {

@@ -17,6 +17,8 @@ struct ErrorPoint {
     double relative_error = 0.0;  ///< (E - E*) / (E0 - E*)
     /// Of it, as runs make it (step_error.h); NaN: none.
     double estimate = std::numeric_limits<double>::quiet_NaN();
+    /// Vertices that contact's planes, which are no part of E, have taken back at the last.
+    int truncated = 0;
 };
 
 /// One solver on one device list by one kind of plan. Its points begin with iteration 0, the start.

@@ -120,6 +120,16 @@ void IncrementalPotential::make_pattern() {
     }
 }
 
+bool IncrementalPotential::rubs() const {
+    return std::ranges::any_of(contacts_,
+                               [](const FrozenContact& c) { return c.rubbing.friction > 0.0; });
+}
+
+void IncrementalPotential::press_as_at(std::span<const Vec3> x) {
+    for (FrozenContact& contact : contacts_) contact.press = contact.force(contact.way(x));
+    at_.clear();
+}
+
 double IncrementalPotential::energy(std::span<const Vec3> x) const {
     long double sum = 0.0L;
     for (std::size_t v = 0; v < predicted_.size(); ++v) {
@@ -131,7 +141,7 @@ double IncrementalPotential::energy(std::span<const Vec3> x) const {
             sum += family->energy(e, corners_of(*family, e, x).data());
         }
     }
-    for (const FrozenContact& contact : contacts_) sum += contact.energy(contact.gap(x));
+    for (const FrozenContact& contact : contacts_) sum += contact.energy(contact.way(x));
     return static_cast<double>(sum);
 }
 
@@ -149,10 +159,10 @@ std::vector<Vec3> IncrementalPotential::gradient(std::span<const Vec3> x) const 
         }
     }
     for (const FrozenContact& contact : contacts_) {
-        const double slope = contact.slope(contact.gap(x));
+        const Vec3 pull = contact.gradient(contact.way(x));
         for (std::size_t k = 0; k < 4; ++k) {
             Vec3& at = sum[static_cast<std::size_t>(contact.corners[k])];
-            at = at + (slope * contact.weights[k]) * contact.normal;
+            at = at + contact.weights[k] * pull;
         }
     }
     for (std::size_t v = 0; v < sum.size(); ++v) {
@@ -178,9 +188,9 @@ double IncrementalPotential::force_size(std::span<const Vec3> x) const {
         }
     }
     for (const FrozenContact& contact : contacts_) {
-        const double slope = contact.slope(contact.gap(x));
+        const double pull = length(contact.gradient(contact.way(x)));
         for (std::size_t k = 0; k < 4; ++k) {
-            if (is_free(contact.corners[k])) size += std::abs(slope * contact.weights[k]);
+            if (is_free(contact.corners[k])) size += pull * std::abs(contact.weights[k]);
         }
     }
     return size;
@@ -224,12 +234,10 @@ const BlockMatrix& IncrementalPotential::hessian(std::span<const Vec3> x, double
 void IncrementalPotential::add_contacts() {
     auto slot = contact_slots_.begin();
     for (const FrozenContact& contact : contacts_) {
-        const double curvature = contact.curvature(contact.gap(at_));
-        const Vec3 n = contact.normal;
-        const Mat3 along{{n.x * n, n.y * n, n.z * n}};
+        const Mat3 hessian = contact.hessian(contact.way(at_));
         for (const double row : contact.weights) {
             for (const double column : contact.weights) {
-                if (*slot >= 0) exact_.add(*slot, (curvature * row * column) * along);
+                if (*slot >= 0) exact_.add(*slot, (row * column) * hessian);
                 ++slot;
             }
         }

@@ -16,8 +16,11 @@ namespace weft {
 ///   x~ = x_t + h v_t + h^2 g
 ///
 /// with the vertices that are held where they are at the step's end. It is the same for all
-/// solvers. Contact with obstacles is no part of it: that is an inequality, not an energy. Damping
-/// is none either: it takes its part of the velocities after the step.
+/// solvers. Contacts are those that the step found where it began; friction has an energy only
+/// where it is given what presses surfaces together (press_as_at). What is an inequality and no
+/// energy is no part of it: contact with obstacles, and the planes that keep surfaces apart
+/// (kernels/contact/truncation.h). Nor is damping: it takes its part of the velocities after the
+/// step.
 ///
 /// All vectors are [vertices], in the new order.
 class IncrementalPotential {
@@ -34,6 +37,10 @@ public:
     const std::vector<double>& inertia() const { return inertia_; }
     const std::vector<std::unique_ptr<ElementFamily>>& families() const { return families_; }
     const std::vector<FrozenContact>& contacts() const { return contacts_; }
+    /// Whether there is friction.
+    bool rubs() const;
+    /// From now on friction goes by what presses contacts together at x. At first nothing does.
+    void press_as_at(std::span<const Vec3> x);
 
     /// [J]
     double energy(std::span<const Vec3> x) const;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "runtime/io/cache_folder.h"
+#include "simulation/reference/equilibrium.h"
 
 namespace weft {
 
@@ -35,6 +36,12 @@ std::string problem_bytes(const IncrementalPotential& potential) {
             append(bytes, std::vector<int>(corners.begin(), corners.end()));
         }
     }
+    for (const FrozenContact& c : potential.contacts()) {
+        append(bytes, std::vector<int>(c.corners.begin(), c.corners.end()));
+        append(bytes, std::vector<double>(c.weights.begin(), c.weights.end()));
+        append(bytes, std::vector<double>{c.normal.x, c.normal.y, c.normal.z, c.range, c.stiffness,
+                                          c.rubbing.friction, c.rubbing.creep});
+    }
     std::vector<Vec3> x = potential.predicted();
     for (int place = 0; place < 2; ++place) {
         append(bytes, std::vector<double>{potential.energy(x)});
@@ -62,7 +69,7 @@ std::string to_bytes(const Minimum& minimum) {
     return bytes;
 }
 
-bool read_minimum(const fs::path& path, const IncrementalPotential& potential, Minimum& minimum) {
+bool read_minimum(const fs::path& path, IncrementalPotential& potential, Minimum& minimum) {
     const std::string bytes = read_cached(path);
     const std::size_t vertices = potential.predicted().size();
     std::vector<double> numbers(kHeader + 3 * vertices);
@@ -76,6 +83,7 @@ bool read_minimum(const fs::path& path, const IncrementalPotential& potential, M
         const double* x = &numbers[kHeader + 3 * v];
         minimum.x.push_back({x[0], x[1], x[2]});
     }
+    potential.press_as_at(minimum.x);
     return potential.energy(minimum.x) == minimum.energy &&
            potential.energy(potential.predicted()) == minimum.start_energy;
 }
@@ -96,7 +104,7 @@ Minimum find_minimum(IncrementalPotential& potential,
     const fs::path path = cached_file(potential);
     Minimum minimum;
     if (!path.empty() && read_minimum(path, potential, minimum)) return minimum;
-    minimum = minimise(potential, start_of(potential, guess), progress, kEnoughGap);
+    minimum = find_equilibrium(potential, start_of(potential, guess), progress, kEnoughGap);
     if (!path.empty() && minimum.certificate.relative_gap <= kSolvedGap) {
         write_cached(path, to_bytes(minimum));
     }

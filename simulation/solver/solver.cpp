@@ -17,26 +17,26 @@ namespace weft {
 namespace {
 
 void refuse_contact(const Scene& scene) {
-    if (!scene.contact) return;
-    const Method method = scene.solver.method;
-    const std::string path = scene.path.empty() ? "the scene" : scene.path;
-    if (method == Method::kNewton) {
-        throw UserError(fmt::format(
-            "{}: {} does not know [contact] yet; take solver.method = \"vbd\", \"sosd\", "
-            "\"jpgd\" or \"xpbd\"",
-            path, name_of(method)));
-    }
-    if (method == Method::kXpbd && scene.contact->friction.value_or(0.0) > 0.0) {
-        throw UserError(path +
-                        ": contact.friction is not there yet for xpbd; leave it out, or take "
-                        "solver.method = \"vbd\", \"sosd\" or \"jpgd\"");
-    }
-    if (scene.solver.tolerance > 0.0) {
-        throw UserError(path + ": solver.tolerance knows nothing of [contact] yet; leave it out");
-    }
+    const std::string why = why_no_contact(scene);
+    if (why.empty()) return;
+    throw UserError((scene.path.empty() ? "the scene" : scene.path) + ": " + why);
 }
 
 }  // namespace
+
+std::string why_no_contact(const Scene& scene) {
+    if (!scene.contact) return {};
+    if (scene.solver.method == Method::kNewton) {
+        return "newton does not know [contact] yet; take solver.method = \"vbd\", \"sosd\", "
+               "\"jpgd\" or \"xpbd\"";
+    }
+    const bool rubs = scene.contact->friction.value_or(0.0) > 0.0;
+    if (scene.solver.method == Method::kXpbd && rubs) {
+        return "contact.friction is not there yet for xpbd; leave it out, or take "
+               "solver.method = \"vbd\", \"sosd\" or \"jpgd\"";
+    }
+    return {};
+}
 
 std::unique_ptr<Solver> make_solver(Model& model) {
     refuse_contact(model.scene);

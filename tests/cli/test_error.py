@@ -63,6 +63,34 @@ radius = 0.1
 """
 
 
+# A sheet comes down on another one, which hangs at two sides, a little askew.
+TOUCHING = """
+[scene]
+name = "touching"
+frames = 8
+dt = 0.01
+substeps = 4
+[solver]
+method = "vbd"
+iterations = 20
+[contact]
+thickness = 0.02
+[[cloth]]
+name = "low"
+grid = { size = [0.5, 0.5], resolution = [9, 9] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+pins = { edges = ["x-", "x+"] }
+[[cloth]]
+name = "high"
+grid = { size = [0.3, 0.3], resolution = [7, 7] }
+rotate = [0, 1, 0, 20]
+translate = [0.01, 0.021, 0.02]
+density = 0.2
+stretch = { stiffness = 300.0 }
+"""
+
+
 @pytest.fixture
 def folder(tmp_path):
     (tmp_path / "scene.toml").write_text(HANGING)
@@ -262,6 +290,57 @@ radius = 0.2
     errors = [float(row["relative_error"]) for row in curve]
     assert errors[0] == 1.0 and 0.0 <= errors[-1] < 0.1
     assert all(row["relative_error_estimate"] == "" for row in curve)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_contacts_are_in_the_energy(folder, friction):
+    """All solvers that can do the scene go to one minimum, and estimates of runs see the same."""
+    text = TOUCHING.replace("[contact]", f"[contact]\nfriction = {friction}") if friction else TOUCHING
+    (folder / "scene.toml").write_text(text)
+    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--frame", "6",
+                      "--max-iterations", "1000", "--time", "60", cwd=folder)
+    assert study["energies"] == ["inertia", "springs", "contact"] + ["friction"] * (friction > 0)
+    solvers = {"vbd", "sosd", "jpgd"} | ({"xpbd"} if friction == 0.0 else set())
+    curves = {key[0]: curve for key, curve in read_curves(folder / "out" / "error.csv").items()}
+    assert set(curves) == solvers
+    (note,) = [note for note in study["notes"] if "contacts, as they are where it begins" in note]
+    assert int(note.split()[3]) > 50
+    compared = 0
+    for solver, curve in curves.items():
+        errors = [float(row["relative_error"]) for row in curve]
+        assert errors[0] == 1.0 and min(errors) > -1e-9
+        assert errors[-1] < 1e-4, solver
+        for row in curve[1:]:
+            error, estimate = (float(row[name]) for name in ("relative_error",
+                                                             "relative_error_estimate"))
+            if error < 1e-3 or row["truncated"] != "0":
+                continue
+            assert error / 3 < estimate < 3 * error, (solver, row["iteration"])
+            compared += 1
+    assert compared > 20
+
+
+def test_planes_that_hold_vertices_are_told(folder):
+    """What planes hold back is no step's fault, and no silence."""
+    text = TOUCHING.replace('translate = [0.01, 0.021, 0.02]', 'translate = [0.01, 0.004, 0.02]')
+    (folder / "scene.toml").write_text(text.replace("dt = 0.01", "dt = 0.05"))
+    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers",
+                      "vbd", "--frame", "1", "--max-iterations", "40", cwd=folder)
+    (curve,) = read_curves(folder / "out" / "error.csv").values()
+    held = int(curve[-1]["truncated"])
+    assert held > 0 and study["curves"][0]["truncated"] == held
+    (note,) = [note for note in study["notes"] if "planes that keep surfaces apart" in note]
+    assert f"vbd on cpu/1 (auto): {held}" in note
+
+
+@pytest.mark.parametrize("arguments, parts", [
+    (["--solvers", "vbd,newton"], ["newton does not know [contact]", "vbd"]),
+    (["--trajectory"], ["--trajectory does not know [contact]"]),
+])
+def test_what_contact_is_not_known_to(folder, arguments, parts):
+    (folder / "scene.toml").write_text(TOUCHING)
+    expect_error(weft("error", "scene.toml", "--out", "out", "--quiet", *arguments, cwd=folder), 2,
+                 *parts)
 
 
 @pytest.mark.parametrize("arguments, parts", [

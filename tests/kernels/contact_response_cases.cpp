@@ -9,6 +9,7 @@
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
 #include "kernels/descent/free_bodies.h"
+#include "kernels/newton/contacts.h"
 #include "kernels/xpbd/contacts.h"
 #include "runtime/row_table.h"
 #include "tests/kernels/kernel_case.h"
@@ -175,6 +176,32 @@ void gather_case(KernelCase& c) {
                       c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
+void couple_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    Contacts contacts(c);
+    auto& curvatures = c.add<float>("curvatures", contacts.normals.count());
+    auto& grips = c.add<float>("grips", contacts.normals.count());
+    c.launch = launch(kernels::couple_contacts, c.segments, positions, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      curvatures, grips, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
+}
+
+void multiply_case(KernelCase& c) {
+    auto& directions = add_points(c, "directions", c.items);
+    Contacts contacts(c);
+    auto& curvatures = c.add<float>("curvatures", contacts.normals.count());
+    auto& grips = c.add<float>("grips", contacts.normals.count());
+    for (float& value : curvatures.span()) value = c.random.real(0.0f, 1e4f);
+    for (float& value : grips.span()) value = c.random.real(0.0f, 1e3f);
+    auto& products = c.add<float>("products", 3 * c.items);
+    for (float& value : products.span()) value = c.random.real(-1.0f, 1.0f);
+    c.launch = launch(kernels::multiply_contacts, c.segments, directions, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      curvatures, grips, products, c.items);
+}
+
 void snapshot_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& even = c.add<float4>("even", c.items);
@@ -317,7 +344,8 @@ const bool added =
     add_case("add_lags_and_contacts", lags_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
-    add_case("share_masses", share_case) && add_case("project_contacts", project_case);
+    add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&
+    add_case("couple_contacts", couple_case) && add_case("multiply_contacts", multiply_case);
 
 }  // namespace
 }  // namespace weft::test

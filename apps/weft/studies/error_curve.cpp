@@ -24,7 +24,8 @@ std::string to_bytes(const MeasuredCurve& curve) {
     for (const ErrorPoint& p : curve.points) {
         // Streams read no NaN.
         const double estimate = std::isnan(p.estimate) ? -1.0 : p.estimate;
-        bytes += fmt::format("{} {} {} {}\n", p.iteration, p.time, p.energy, estimate);
+        bytes +=
+            fmt::format("{} {} {} {} {}\n", p.iteration, p.time, p.energy, estimate, p.truncated);
     }
     return bytes + std::string(reinterpret_cast<const char*>(curve.positions.data()),
                                curve.positions.size() * sizeof(float));
@@ -38,7 +39,7 @@ MeasuredCurve to_curve(const std::string& bytes) {
     in >> count;
     curve.points.resize(count);
     for (ErrorPoint& p : curve.points) {
-        in >> p.iteration >> p.time >> p.energy >> p.estimate;
+        in >> p.iteration >> p.time >> p.energy >> p.estimate >> p.truncated;
         if (p.estimate < 0.0) p.estimate = ErrorPoint{}.estimate;
     }
     in.get();
@@ -73,8 +74,14 @@ public:
     double advance() {
         simulation_.start_from(problem_.first_substep, problem_.start.positions,
                                problem_.start.velocities);
-        return simulation_.advance({.tasks = false}).measured_makespan;
+        const FrameRecord frame = simulation_.advance({.tasks = false});
+        truncated_ =
+            frame.contacts.empty() ? 0 : static_cast<int>(frame.contacts.front().truncated);
+        return frame.measured_makespan;
     }
+    /// Vertices that contact's planes took back.
+    int truncated() const { return truncated_; }
+    std::vector<char> held() { return simulation_.held_at(simulation_.time()); }
     std::vector<float> positions() const { return simulation_.positions(); }
 
 private:
@@ -88,6 +95,7 @@ private:
     const ErrorProblem& problem_;
     Warnings warnings_;
     Simulation simulation_;
+    int truncated_ = 0;
 };
 
 /// Measures as many points as the time allows. Only measuring counts: building kernels, setting up
@@ -129,17 +137,20 @@ private:
         const double energy = problem_.energy(problem_.from_scene_order(positions));
         // More iterations never take less: what is left of the noise is no news.
         const double before = measured_.points.empty() ? 0.0 : measured_.points.back().time;
-        const double estimate = estimate_of(positions);
-        measured_.add({iterations, std::max(before, time.median()), energy, 0.0, estimate},
-                      std::move(positions));
+        const double estimate = estimate_of(positions, step.held());
+        measured_.add(
+            {iterations, std::max(before, time.median()), energy, 0.0, estimate, step.truncated()},
+            std::move(positions));
     }
 
     /// Runs estimate E's error.
-    double estimate_of(const std::vector<float>& positions) {
+    double estimate_of(const std::vector<float>& positions, std::vector<char> held) {
         if (!problem_.end.empty()) return std::numeric_limits<double>::quiet_NaN();
         const State& start = problem_.start;
         const double time = problem_.first_substep * problem_.model.h;
-        return estimate_.of({start.positions, start.velocities, positions, time, {}})
+        return estimate_
+            .of({start.positions, start.velocities, positions, time, std::move(held),
+                 problem_.contacts})
             .value_or(std::numeric_limits<double>::quiet_NaN());
     }
 
@@ -186,7 +197,8 @@ double MeasuredCurve::least_energy() const {
 std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem) {
     constexpr int kIterations = 100;
     try {
-        return end_of(options, problem, "newton", kIterations);
+        const bool has_contacts = problem.model.scene.contact.has_value();
+        return end_of(options, problem, has_contacts ? "vbd" : "newton", kIterations);
     } catch (const RunError&) {
         return {};
     }

@@ -17,8 +17,9 @@ struct MeasuredCurve {
     double least_energy() const;  ///< infinite without points
 };
 
-/// Where newton gets in one step, to start the reference from: in seconds within 1e-4 or so of what
-/// takes double precision minutes to come near from far away. Empty where newton fails.
+/// Where newton (with contact: vbd) gets in one step, to start the reference from: in seconds
+/// within 1e-4 or so of what takes double precision minutes to come near from far away. Empty where
+/// newton fails.
 std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem);
 
 /// Where the first solver gets alone, with far more iterations than curves have. Throws RunError.

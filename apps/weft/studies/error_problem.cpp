@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "apps/weft/child_process.h"
 #include "apps/weft/progress.h"
@@ -12,6 +14,8 @@
 namespace weft {
 
 namespace {
+
+constexpr const char* kContactsBy = "vbd";  ///< it knows all that contacts can do
 
 std::string to_bytes(const State& state) {
     std::string bytes(2 * state.positions.size() * sizeof(float), '\0');
@@ -27,6 +31,19 @@ State to_state(const std::string& bytes) {
     std::memcpy(state.positions.data(), bytes.data(), half);
     std::memcpy(state.velocities.data(), bytes.data() + half, half);
     return state;
+}
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+template <class T>
+std::vector<T> from_bytes(const std::string& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
 }
 
 void set_state(Model& model, const State& state) {
@@ -74,12 +91,41 @@ Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int 
     return scene;
 }
 
+std::vector<FrozenContact> contacts_of_step(const ErrorOptions& options, const State& start,
+                                            int substep) {
+    const Scene scene = scene_of_step(options, kContactsBy, 1);
+    if (!scene.contact) return {};
+    return from_bytes<FrozenContact>(in_child_process("the step's contacts", [&] {
+        SimulationOptions how = options.run.simulation();
+        how.devices = "cpu";
+        how.plan = PlanKind::kSingle;
+        how.calibrate = false;
+        how.on_trouble = OnTrouble::kIgnore;
+        Warnings said_already;
+        Simulation simulation(scene, how, said_already);
+        simulation.start_from(substep, start.positions, start.velocities);
+        simulation.advance({.tasks = false});
+        return bytes_of(simulation.contacts());
+    }));
+}
+
+namespace {
+
+/// Contacts are those that vbd finds, in its order of vertices: so the parts of a study have the
+/// same numbers, whichever solvers they measure.
+Scene scene_of_problem(const ErrorOptions& options) {
+    Scene scene = scene_of_step(options, options.solvers.front(), 1);
+    return scene.contact ? scene_of_step(options, kContactsBy, 1) : scene;
+}
+
+}  // namespace
+
 ErrorProblem::ErrorProblem(const ErrorOptions& options, State state, int substep)
-    : model(scene_of_step(options, options.solvers.front(), 1), warnings),
-      first_substep(substep),
-      start(std::move(state)) {
+    : model(scene_of_problem(options), warnings), first_substep(substep), start(std::move(state)) {
     set_state(model, start);
-    potential = std::make_unique<IncrementalPotential>(model, substep * model.h);
+    contacts = contacts_of_step(options, start, substep);
+    potential = std::make_unique<IncrementalPotential>(model, substep * model.h,
+                                                       with_corners(contacts, model.strips.rank));
 }
 
 double ErrorProblem::energy(std::span<const Vec3> x) const {

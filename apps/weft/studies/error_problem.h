@@ -23,6 +23,11 @@ State state_at(const ErrorOptions& options, const Scene& scene, int frame);
 /// since what solvers pass through on their way is to be seen. Throws UserError.
 Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations);
 
+/// What touches in the step, as every solver finds it where the step begins: corners in scene
+/// order. Empty: nothing, or no [contact].
+std::vector<FrozenContact> contacts_of_step(const ErrorOptions& options, const State& start,
+                                            int substep);
+
 /// The step that all solvers are measured on.
 struct ErrorProblem {
     ErrorProblem(const ErrorOptions& options, State state, int substep);
@@ -38,6 +43,7 @@ struct ErrorProblem {
     Model model;
     int first_substep;  ///< since the run's beginning
     State start;
+    std::vector<FrozenContact> contacts;  ///< that the step begins with; corners in scene order
     std::unique_ptr<IncrementalPotential> potential;
     std::vector<Vec3> end;  ///< of the step with obstacles, which are no part of E; empty: E counts
 };

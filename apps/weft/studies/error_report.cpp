@@ -18,18 +18,37 @@ std::string goal_text(const ErrorCurve& curve, double goal) {
     return fmt::format("{:.3f} ms / {}", 1e3 * point->time, point->iteration);
 }
 
+/// With what the curves say: planes hold vertices that cannot get to E* then.
+std::vector<std::string> notes_of(const ErrorStudy& study) {
+    std::vector<std::string> held;
+    for (const ErrorCurve& curve : study.curves) {
+        const int truncated = curve.points.back().truncated;
+        if (truncated == 0) continue;
+        held.push_back(
+            fmt::format("{} on {} ({}): {}", curve.solver, curve.devices, curve.plan, truncated));
+    }
+    std::vector<std::string> notes = study.notes;
+    if (held.empty()) return notes;
+    notes.push_back(
+        fmt::format("the planes that keep surfaces apart are no part of E; where these curves end "
+                    "they hold vertices, of {}: {}; what they hold back counts as error",
+                    study.vertices, fmt::join(held, ", ")));
+    return notes;
+}
+
 }  // namespace
 
 std::string to_csv(const ErrorStudy& study) {
     std::string csv =
-        "solver,device,plan,iteration,time_s,energy,relative_error,relative_error_estimate\n";
+        "solver,device,plan,iteration,time_s,energy,relative_error,relative_error_estimate,"
+        "truncated\n";
     for (const ErrorCurve& curve : study.curves) {
         for (const ErrorPoint& point : curve.points) {
             const std::string estimate =
                 std::isnan(point.estimate) ? "" : fmt::format("{}", point.estimate);
-            csv += fmt::format("{},{},{},{},{},{},{},{}\n", curve.solver, curve.devices, curve.plan,
-                               point.iteration, point.time, point.energy, point.relative_error,
-                               estimate);
+            csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", curve.solver, curve.devices,
+                               curve.plan, point.iteration, point.time, point.energy,
+                               point.relative_error, estimate, point.truncated);
         }
     }
     return csv;
@@ -46,7 +65,7 @@ std::string to_text(const ErrorStudy& study) {
         study.scene, study.frame, 1e3 * study.step, study.vertices, fmt::join(study.energies, ", "),
         minimum.start_energy, minimum.energy, minimum.certificate.relative_gap,
         minimum.certificate.relative_gradient, study.rounding_floor);
-    for (const std::string& note : study.notes) text += "note: " + note + '\n';
+    for (const std::string& note : notes_of(study)) text += "note: " + note + '\n';
     text += fmt::format("\n{:<8}{:<24}{:<8}{:>18}{:>18}{:>18}{:>12}\n", "solver", "devices", "plan",
                         "to 1e-1", "to 1e-2", "to 1e-3", "reached");
     for (const ErrorCurve& curve : study.curves) {
@@ -76,6 +95,7 @@ nlohmann::ordered_json to_json(const ErrorStudy& study) {
                           {"iterations", curve.points.back().iteration},
                           {"energy", curve.points.back().energy},
                           {"relative_error", curve.points.back().relative_error},
+                          {"truncated", curve.points.back().truncated},
                           {"end", curve.end},
                           {"to", goals}});
     }
@@ -92,7 +112,7 @@ nlohmann::ordered_json to_json(const ErrorStudy& study) {
               {"relative_gap", certificate.relative_gap},
               {"iterations", certificate.iterations}}},
             {"rounding_floor", study.rounding_floor},
-            {"notes", study.notes},
+            {"notes", notes_of(study)},
             {"curves", curves}};
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/error.h"
 #include "simulation/families/convert.h"
 #include "simulation/reference/minimum_cache.h"
+#include "simulation/solver/solver.h"
 
 namespace weft {
 
@@ -65,7 +66,10 @@ void check_options(const ErrorOptions& options) {
             fmt::format("--max-iterations {}: expected 1 or more", options.max_iterations));
     }
     // Wrong names are to be seen before anything is computed.
-    for (const std::string& solver : options.solvers) scene_of_step(options, solver, 1);
+    for (const std::string& solver : options.solvers) {
+        const std::string why = why_no_contact(scene_of_step(options, solver, 1));
+        if (!why.empty()) throw UserError(options.run.scene + ": " + why);
+    }
     for (const std::string& plan : options.plans) {
         RunOptions run = options.run;
         run.plan = plan;
@@ -94,9 +98,20 @@ void look_below(ErrorStudy& study, ErrorProblem& problem, const MeasuredCurve& m
     if (std::ranges::find(study.notes, note) == study.notes.end()) study.notes.push_back(note);
 }
 
+void describe_contact(ErrorStudy& study, const ErrorProblem& problem) {
+    const bool rubs = problem.potential->rubs();
+    study.energies.emplace_back("contact");
+    if (rubs) study.energies.emplace_back("friction");
+    study.notes.push_back(fmt::format(
+        "the step has {} contacts, as they are where it begins{}",
+        problem.potential->contacts().size(),
+        rubs ? "; friction goes by what presses them together at the reference's end" : ""));
+}
+
 /// What E is made of, and what of the scene is no part of it.
 void describe(ErrorStudy& study, const ErrorOptions& options, const Scene& scene,
-              const Model& model) {
+              const ErrorProblem& problem) {
+    const Model& model = problem.model;
     if (options.obstacles) {
         study.energies = {"distance"};
         study.notes.push_back(
@@ -110,6 +125,7 @@ void describe(ErrorStudy& study, const ErrorOptions& options, const Scene& scene
     for (const auto& family : model.families) {
         for (const std::string& part : family->parts()) study.energies.push_back(part);
     }
+    if (scene.contact) describe_contact(study, problem);
     if (!scene.obstacles.empty()) {
         study.notes.emplace_back(
             "obstacles are no part of E, since contact is an inequality; all solvers and the "
@@ -159,7 +175,7 @@ ErrorStudy study_errors(const ErrorOptions& options) {
     study.step = scene.dt / scene.substeps;
     ErrorProblem problem(options, std::move(start.state), start.frame * scene.substeps);
     study.vertices = problem.model.vertex_count();
-    describe(study, options, scene, problem.model);
+    describe(study, options, scene, problem);
     study.minimum = solve(options, problem);
     constexpr double kLostInRounding = 0.1;
     if (!(rounding_floor(problem, study.minimum) < kLostInRounding)) {

@@ -30,7 +30,7 @@ Json curve_json(const ErrorCurve& curve) {
     Json points = Json::array();
     for (const ErrorPoint& p : curve.points) {
         const Json estimate = std::isnan(p.estimate) ? Json() : Json(p.estimate);
-        points.push_back({p.iteration, p.time, p.energy, p.relative_error, estimate});
+        points.push_back({p.iteration, p.time, p.energy, p.relative_error, estimate, p.truncated});
     }
     return {{"solver", curve.solver},
             {"devices", curve.devices},
@@ -44,6 +44,7 @@ ErrorCurve error_curve(const Json& json) {
     for (const Json& p : json.at("points")) {
         curve.points.push_back({p[0], p[1], p[2], p[3]});
         if (p[4].is_number()) curve.points.back().estimate = p[4];
+        curve.points.back().truncated = p[5];
     }
     return curve;
 }

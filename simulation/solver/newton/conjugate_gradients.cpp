@@ -49,6 +49,9 @@ ConjugateGradients::ConjugateGradients(Model& model, DescentSubstep& substep)
       by_strip_{&strip_begin_, 0, 1, model.strips.count()},
       columns_by_strip_{&column_begin_, 0, 1, model.strips.count()} {
     static_assert(kDotColumns == WEFT_DOT_COLUMNS);
+    if (substep.contact() != nullptr) {
+        contacts_ = std::make_unique<ContactHessian>(model, *substep.contact());
+    }
     std::iota(strip_begin_.span().begin(), strip_begin_.span().end(), 0);
     place_terms();
 }
@@ -88,6 +91,11 @@ std::vector<Launch> ConjugateGradients::linearise() {
     auto launches = derivatives_.gather_gradients(kInnerPhase, *model_.positions);
     append(launches, hessian_.couple(linearised_at()));
     append(launches, hessian_.sum_rows(derivatives_.sums()));
+    if (contacts_) {
+        launches.push_back(substep_.contact()->gather_at(
+            items_.segments(kInnerPhase), *model_.positions, items_, derivatives_.sums()));
+        launches.push_back(contacts_->couple());
+    }
     launches.push_back(launch(kernels::begin_conjugate_gradients, model_.vertices(),
                               *model_.positions, substep_.targets(), derivatives_.sums(), factors_,
                               residuals_, searches_, applied_, moves_, model_.vertex_count(),
@@ -105,6 +113,7 @@ std::vector<Launch> ConjugateGradients::correct() {
 
 std::vector<Launch> ConjugateGradients::product() {
     auto launches = hessian_.multiply(preconditioned_, products_);
+    if (contacts_) launches.push_back(contacts_->multiply(preconditioned_, products_));
     launches.push_back(launch(kernels::finish_product, model_.vertices(), *model_.positions,
                               residuals_, preconditioned_, products_, places_, *terms_,
                               model_.vertex_count(), delta_offset_,
@@ -124,6 +133,11 @@ std::vector<Launch> ConjugateGradients::advance() {
         coarse_.restrict(residuals_)};
 }
 
+/// Contacts reach from anywhere to anywhere.
+std::pair<int, int> ConjugateGradients::around(int first, int last) const {
+    return contacts_ ? std::pair(0, model_.vertex_count()) : halo_.around(first, last);
+}
+
 void ConjugateGradients::add_vectors(Step::Adding& task, int first, int last) {
     for (Buffer<float>* vector : {&searches_, &applied_, &moves_}) {
         add_columns(task, *vector, model_.vertex_count(), 3, first, last, true);
@@ -134,7 +148,8 @@ void ConjugateGradients::add_vectors(Step::Adding& task, int first, int last) {
 void ConjugateGradients::add_linearise_accesses(Step::Adding& task, int first_strip,
                                                 int end_strip) {
     const auto [first, last] = substep_.vertices(first_strip, end_strip);
-    const auto [halo_begin, halo_end] = halo_.around(first, last);
+    const auto [halo_begin, halo_end] = around(first, last);
+    if (contacts_) contacts_->add_couple_accesses(task, first_strip, end_strip);
     task.reads(*model_.positions, halo_begin, halo_end)
         .reads(before_, halo_begin, halo_end)
         .reads(after_, halo_begin, halo_end)
@@ -155,7 +170,8 @@ void ConjugateGradients::add_correct_accesses(Step::Adding& task, int first_stri
 
 void ConjugateGradients::add_product_accesses(Step::Adding& task, int first_strip, int end_strip) {
     const auto [first, last] = substep_.vertices(first_strip, end_strip);
-    const auto [halo_begin, halo_end] = halo_.around(first, last);
+    const auto [halo_begin, halo_end] = around(first, last);
+    if (contacts_) contacts_->add_multiply_accesses(task, first_strip, end_strip);
     task.reads(*model_.positions, first, last)
         .reads(residuals_, first, last)
         .reads(preconditioned_, halo_begin, halo_end)

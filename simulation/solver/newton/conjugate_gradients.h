@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulation/solver/derivatives.h"
 #include "simulation/solver/descent.h"
 #include "simulation/solver/newton/coarse_space.h"
+#include "simulation/solver/newton/contact_hessian.h"
 #include "simulation/solver/newton/hessian.h"
 
 namespace weft {
@@ -13,7 +16,7 @@ namespace weft {
 /// Solves the linear system of a Newton step by so many steps of preconditioned conjugate
 /// gradients; see kernels/newton/conjugate_gradients.h. What a step does, in tasks over strips:
 ///   correct:  the coarse space's answer to the residuals of all strips, and u = P r
-///   product:  w = A u, with u of neighbouring strips; the strip's part of both dot products
+///   product:  w = A u, with u of neighbouring strips (with contacts: of all); the strip's part of both dot products
 ///   advance:  alpha and beta from those of all strips, and the vectors
 class ConjugateGradients {
 public:
@@ -35,6 +38,8 @@ public:
     void add_advance_accesses(Step::Adding& task, int first_strip, int end_strip);
 
     CoarseSpace& coarse() { return coarse_; }
+    /// Whose positions the derivatives of vertices [first, last) take.
+    std::pair<int, int> around(int first, int last) const;
     const Halo& halo() const { return halo_; }
     /// [vertices] r and u, and [3 * vertices] column-major A u
     Buffer<float4>& residuals() { return residuals_; }
@@ -55,6 +60,7 @@ private:
     VertexItems items_;
     VertexDerivatives derivatives_;
     Hessian hessian_;
+    std::unique_ptr<ContactHessian> contacts_;  ///< null: none
     CoarseSpace coarse_;
     Halo halo_;
     Buffer<float4> before_, after_;

@@ -40,10 +40,16 @@ constexpr float kSlackWithObstacles = 2.0f;
 /// Sweeps of vertex block descent (sweeps.h).
 struct Smoother {
     Smoother(Model& model, DescentSubstep& substep)
-        : items(make_vertex_layout(model.stencils(), model.strips)), derivatives(model, items) {
+        : contact(substep.contact()),
+          items(make_vertex_layout(model.stencils(), model.strips)),
+          derivatives(model, items) {
         for (const Phase phase : {kSeamPhase, kInnerPhase}) {
             TaskBody& body = phase == kSeamPhase ? seams : strips;
             body.launches = derivatives.gather(phase, *model.positions);
+            if (contact != nullptr) {
+                body.launches.push_back(contact->gather(items.segments(phase), *model.positions,
+                                                        items, derivatives.sums()));
+            }
             body.launches.push_back(launch(kernels::solve_vertices, items.segments(phase),
                                            *model.positions, substep.targets(), items.vertices(),
                                            derivatives.sums(), items.count(),
@@ -51,7 +57,11 @@ struct Smoother {
             body.taking_turns = static_cast<int>(body.launches.size());
         }
         substep.add_obstacles(strips.launches, *model.positions);
+        if (contact == nullptr) return;
+        contact->add_truncation(strips.launches, *model.positions);
+        contact->add_snapshot(strips.launches, *model.positions);
     }
+    ContactResponse* contact;  ///< null: none
     VertexItems items;
     VertexDerivatives derivatives;
     TaskBody seams{"seams", kSeams, {}}, strips{"strips", kStrips, {}};
@@ -63,9 +73,10 @@ public:
         : model_(model),
           iterations_(model.scene.solver.iterations),
           substep_(model, kMomentum),
+          contact_(substep_.contact()),
           gradients_(model, substep_),
           smoother_(model, substep_),
-          energy_(model, substep_.targets()),
+          energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
           kept_("positions.kept", model.positions->count()),
           control_("control", WEFT_CONTROL_SIZE),
           first_strip_("first_strip", static_cast<std::size_t>(model.strips.count()) + 1) {
@@ -82,22 +93,26 @@ public:
             &correct_,         &product_,     &advance_, &move_,   &smoother_.seams,
             &smoother_.strips, &energy_body_, &decide_,  &revert_, &velocities_};
         if (substep_.has_free_bodies()) list.push_back(&momentum_);
+        substep_.list_bodies(list);
         return list;
     }
     std::vector<std::string> kinds() const override {
         std::vector<std::string> names{"predict", "linearise", "coarse",  "factor", "invert",
                                        "correct", "product",   "advance", "move",   "seams",
                                        "strips",  "energy",    "decide",  "revert", "velocities"};
-        if (substep_.has_free_bodies()) names.push_back("momentum");
+        substep_.list_kinds(names);
         return names;
     }
     std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    std::vector<RowTable*> tables() override { return substep_.tables(); }
+    ContactResponse* contact() override { return contact_; }
 
     Step make_step(const Partition& partition) override {
         regions_ = regions_of(partition);
         Step step;
         for (const Region& region : regions_) add_predict(step, region);
         number_ = 0;
+        if (contact_ != nullptr) contact_->add_detection(step, regions_);
         add_check(step);
         for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
@@ -106,11 +121,14 @@ public:
             substep_.add_sum(step, momentum_, region, *model_.positions, number_);
         }
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
+        substep_.add_measurements(step, regions_, number_);
         step.seal();
         return step;
     }
 
-    void begin(std::span<const float4> positions, std::span<const float4> targets) override {
+    void begin(std::span<const float4> positions, std::span<const float4> targets,
+               std::span<const FrozenContact> contacts) override {
+        if (contact_ != nullptr) contact_->put(contacts, positions, targets);
         const auto [x, before, after] = gradients_.linearised_at();
         for (Buffer<float4>* buffer : {&x, &before, &after}) {
             std::ranges::copy(positions, buffer->data());
@@ -163,6 +181,10 @@ private:
                          control_, positions, model_.vertex_count()),
                   copy(positions, after)}};
         substep_.add_obstacles(move_.launches, *model_.positions);
+        if (contact_ != nullptr) {
+            contact_->add_truncation(move_.launches, *model_.positions);
+            contact_->add_snapshot(move_.launches, *model_.positions);
+        }
         energy_body_ = {"energy", kEnergy, energy_.launches(*model_.positions)};
         decide_ = {"decide",
                    kDecide,
@@ -177,6 +199,8 @@ private:
         if (kept_targets_) {
             revert_.launches.push_back(keep_or_revert(substep_.targets(), *kept_targets_));
         }
+        // For sweeps that come next.
+        if (contact_ != nullptr) contact_->add_snapshot(revert_.launches, *model_.positions);
     }
 
     Launch copy(Buffer<float4>& from, Buffer<float4>& to) {
@@ -275,12 +299,16 @@ private:
                 .updates(after, first, last)
                 .reads(control_, 0, WEFT_CONTROL_SIZE);
             add_columns(task, gradients_.moves(), model_.vertex_count(), 3, first, last, false);
-            add_obstacle_accesses(task, first, last);
+            add_last_word_accesses(task, first, last);
         }
     }
 
-    void add_obstacle_accesses(Step::Adding& task, int first, int last) {
+    /// Of obstacles, and of contacts.
+    void add_last_word_accesses(Step::Adding& task, int first, int last) {
         substep_.add_obstacle_accesses(task, first, last);
+        if (contact_ == nullptr) return;
+        contact_->add_truncation_accesses(task, first, last);
+        contact_->add_snapshot_accesses(task, number_, first, last);
     }
 
     void add_sweep(Step& step) {
@@ -293,7 +321,10 @@ private:
                     auto task = step.add(smoother_.strips, number_, begin, end, region.id);
                     task.updates(*model_.positions, first, last)
                         .reads(substep_.targets(), first, last);
-                    add_obstacle_accesses(task, first, last);
+                    add_last_word_accesses(task, first, last);
+                    if (contact_ != nullptr) {
+                        contact_->add_gather_accesses(task, number_, begin, end);
+                    }
                 });
         }
     }
@@ -303,11 +334,12 @@ private:
         const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
         const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
         const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
-        step.add(smoother_.seams, number_, begin, end, region)
-            .updates(*model_.positions, first, last)
+        auto task = step.add(smoother_.seams, number_, begin, end, region);
+        task.updates(*model_.positions, first, last)
             .reads(*model_.positions, halo_begin, first)
             .reads(*model_.positions, last, halo_end)
             .reads(substep_.targets(), first, last);
+        if (contact_ != nullptr) contact_->add_gather_accesses(task, number_, begin, end + 1);
     }
 
     void add_check(Step& step) {
@@ -315,9 +347,10 @@ private:
         const int columns = EnergySum::kColumns;
         for (const Region& region : regions_) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
-            step.add(energy_body_, number_, region.begin, region.end, region.id)
-                .reads(positions, halo_begin, halo_end)
+            const auto [halo_begin, halo_end] = gradients_.around(first, last);
+            auto task = step.add(energy_body_, number_, region.begin, region.end, region.id);
+            if (contact_) contact_->energy().add_terms_accesses(task, region.begin, region.end);
+            task.reads(positions, halo_begin, halo_end)
                 .reads(substep_.targets(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
         }
@@ -328,6 +361,7 @@ private:
             const auto [first, last] = substep_.vertices(region.begin, region.end);
             auto task = step.add(revert_, number_, region.begin, region.end, region.id);
             task.reads(control_, 0, WEFT_CONTROL_SIZE).updates(kept_, first, last);
+            if (contact_) contact_->add_snapshot_accesses(task, number_, first, last);
             for (Buffer<float4>* buffer : {&positions, &before, &after}) {
                 task.updates(*buffer, first, last);
             }
@@ -339,6 +373,7 @@ private:
     Model& model_;
     int iterations_;
     DescentSubstep substep_;
+    ContactResponse* contact_;  ///< null: none
     ConjugateGradients gradients_;
     Smoother smoother_;
     EnergySum energy_;

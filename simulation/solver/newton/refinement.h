@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/step.h"
+#include "simulation/contact/frozen.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -15,10 +16,13 @@ class NewtonRefinement {
 public:
     virtual ~NewtonRefinement() = default;
     virtual std::vector<const TaskBody*> bodies() const = 0;
+    /// Of the contacts: begin() makes room in them.
+    virtual std::vector<RowTable*> tables() = 0;
 
-    /// Starts from these positions, and goes to the minimum of E for these x~. Vertices of no
-    /// inverse mass are held, whatever the model says.
-    virtual void begin(std::span<const float4> positions, std::span<const float4> targets) = 0;
+    /// Starts from these positions, and goes to the minimum of E for these x~ and these contacts
+    /// (corners in new order). Vertices of no inverse mass are held, whatever the model says.
+    virtual void begin(std::span<const float4> positions, std::span<const float4> targets,
+                       std::span<const FrozenContact> contacts) = 0;
     /// One iteration with so many conjugate gradients. is_first: after begin()
     virtual Step make_iteration(bool is_first, int gradient_steps) = 0;
     virtual std::span<const float4> positions() const = 0;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "simulation/families/convert.h"
@@ -12,10 +13,13 @@ namespace {
 /// A sheet with a fixed and a moving pin, or another scene, that has been torn about: some elements
 /// are compressed.
 struct Torn {
-    explicit Torn(const std::string& scene = kPinnedSheet)
+    explicit Torn(const std::string& scene = kPinnedSheet,
+                  const std::vector<FrozenContact>& contacts = {})
         : model(parse_scene(scene, "test.toml"), warnings),
-          potential(model, 0.25),
-          x(shaken(potential.predicted(), 0.02, 1)) {}
+          potential(model, 0.25, contacts),
+          x(shaken(potential.predicted(), 0.02, 1)) {
+        potential.press_as_at(x);
+    }
 
     Warnings warnings;
     Model model;
@@ -42,8 +46,29 @@ class Derivatives : public testing::TestWithParam<const std::string*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Derivatives,
                          testing::Values(&kPinnedSheet, &kPinnedBlock, &kPinnedWeave));
 
-TEST_P(Derivatives, GradientIsTheDerivativeOfTheEnergy) {
-    const Torn torn(*GetParam());
+/// Contacts of chosen vertices at x: of all stages of their energy, overlapping, and beyond range;
+/// some stick and some slide.
+std::vector<FrozenContact> any_contacts(const std::vector<Vec3>& x) {
+    std::vector<FrozenContact> contacts;
+    const auto count = static_cast<int>(x.size());
+    const std::array ranges{0.9, 1.2, 3.0, 40.0, -2.0};  // by the gap
+    for (int i = 0; i < 40; ++i) {
+        FrozenContact c{{i % count, (i + 9) % count, (i + 20) % count, (i + 31) % count},
+                        {1.0, -0.2, -0.3 - 0.01 * i, -0.5 + 0.01 * i},
+                        normalized(Vec3{1.0, 0.1 * i - 2.0, 0.3})};
+        const Vec3 way = c.way(x);
+        const double ratio = ranges[static_cast<std::size_t>(i) % ranges.size()];
+        if (c.gap(way) * ratio < 0.0) c.normal = -c.normal;
+        c.range = c.gap(way) * ratio;
+        c.stiffness = 50.0 + i;
+        const double slip = length(way - c.gap(way) * c.normal);
+        c.rubbing = {0.4, (i % 2 == 0 ? 0.4 : 1.7) * slip};
+        contacts.push_back(c);
+    }
+    return contacts;
+}
+
+void expect_gradient(const Torn& torn) {
     const auto gradient = torn.potential.gradient(torn.x);
     const auto energy = [&](const std::vector<Vec3>& x) { return torn.potential.energy(x); };
     double size = 0.0;
@@ -59,8 +84,9 @@ TEST_P(Derivatives, GradientIsTheDerivativeOfTheEnergy) {
     }
 }
 
-TEST_P(Derivatives, HessianIsTheDerivativeOfTheGradient) {
-    Torn torn(*GetParam());
+TEST_P(Derivatives, GradientIsTheDerivativeOfTheEnergy) { expect_gradient(Torn(*GetParam())); }
+
+void expect_hessian(Torn& torn) {
     std::mt19937 engine(3);
     const auto along = shaken(std::vector<Vec3>(torn.x.size()), 1.0, 4);
     std::vector<Vec3> direction = along;
@@ -85,6 +111,20 @@ TEST_P(Derivatives, HessianIsTheDerivativeOfTheGradient) {
         size += dot(image[v], image[v]);
     }
     EXPECT_LT(std::sqrt(error / size), 1e-7);
+}
+
+TEST_P(Derivatives, HessianIsTheDerivativeOfTheGradient) {
+    Torn torn(*GetParam());
+    expect_hessian(torn);
+}
+
+TEST(IncrementalPotential, DerivativesOfContactsThatRub) {
+    const Torn without;
+    Torn torn(kPinnedSheet, any_contacts(without.x));
+    const double more = torn.potential.energy(torn.x) - without.potential.energy(without.x);
+    ASSERT_GT(more, 0.1 * torn.potential.energy(torn.x)) << "contacts count";
+    expect_gradient(torn);
+    expect_hessian(torn);
 }
 
 TEST(IncrementalPotential, OnlyTheProjectedHessianIsPositive) {

@@ -8,9 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "simulation/reference/newton.h"
+#include "simulation/reference/equilibrium.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "simulation/solver/solver.h"
 #include "tests/simulation/reference/problems.h"
 #include "tests/simulation/run/physics.h"
 
@@ -42,10 +43,12 @@ Errors errors_of(const Scene& scene) {
     Warnings warnings;
     Simulation simulation(scene, on("cpu/1"), warnings);
     const Model model(scene, warnings);
-    IncrementalPotential potential(model, 0.0);
-    const Minimum minimum = minimise(potential, potential.predicted());
-    EXPECT_LT(minimum.certificate.relative_gap, kSolvedGap);
     const FrameRecord frame = simulation.advance();
+    IncrementalPotential potential(model, 0.0,
+                                   with_corners(simulation.contacts(), model.strips.rank));
+    const Minimum minimum = find_equilibrium(potential, potential.predicted());
+    EXPECT_LT(minimum.certificate.relative_gap, kSolvedGap);
+    EXPECT_EQ(scene.contact.has_value(), !potential.contacts().empty());
     std::vector<Vec3> x(potential.predicted().size());
     model.from_scene_order(simulation.positions(), x);
     const double gained = minimum.start_energy - minimum.energy;
@@ -67,6 +70,53 @@ TEST_P(StepErrors, AreWithinAFactorOfThree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, StepErrors, kMethods, name_of_method);
+
+/// Two sheets that press each other, the upper one as gravity slides it over the lower one.
+Scene touching(const std::string& friction) {
+    return parse_scene(R"(
+[scene]
+frames = 12
+dt = 0.02
+substeps = 4
+gravity = [3.0, -9.0, 0.0]
+[contact]
+thickness = 0.02
+)" + friction + R"(
+[[cloth]]
+name = "low"
+grid = { size = [0.5, 0.5], resolution = [9, 9] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+pins = { edges = ["x-", "x+"] }
+[[cloth]]
+name = "high"
+grid = { size = [0.3, 0.3], resolution = [7, 7] }
+rotate = [0, 1, 0, 20]
+translate = [0.01, 0.016, 0.02]
+density = 0.2
+stretch = { stiffness = 300.0 }
+)",
+                       "test.toml");
+}
+const std::string kRubbing = "friction = 0.4\n";
+
+TEST_P(StepErrors, WithContactsAreWithinAFactorOfThree) {
+    for (const std::string& friction : {std::string(), kRubbing}) {
+        Scene scene = touching(friction);
+        scene.solver.method = GetParam();
+        if (!why_no_contact(scene).empty()) continue;
+        scene.dt /= scene.substeps;
+        scene.substeps = scene.frames = 1;
+        for (const int iterations : {1, 4, 30}) {
+            scene.solver.iterations = iterations;
+            const Errors errors = errors_of(scene);
+            ASSERT_TRUE(std::isfinite(errors.estimated));
+            if (errors.measured < 1e-3) continue;
+            EXPECT_LT(errors.estimated, 3.0 * errors.measured) << iterations << friction;
+            EXPECT_GT(errors.estimated, errors.measured / 3.0) << iterations << friction;
+        }
+    }
+}
 
 /// The estimate of the last frame.
 double last_estimate(const Scene& scene, const std::string& devices) {
@@ -97,6 +147,17 @@ TEST(StepError, IsTheSameOnAllDevices) {
     EXPECT_GT(expected, 0.0);
     for (const char* devices : {"cpu/2", "cpu/1+cpu/1", "opencl:0/1"}) {
         EXPECT_EQ(last_estimate(everything(3, 4), devices), expected) << devices;
+    }
+}
+
+TEST(StepError, OfContactsIsTheSameOnAllDevices) {
+    Scene scene = touching(kRubbing);
+    scene.solver.method = Method::kVbd;
+    scene.frames = 3;
+    const double expected = last_estimate(scene, "cpu/1");
+    EXPECT_GT(expected, 0.0);
+    for (const char* devices : {"cpu/2", "cpu/1+cpu/1", "opencl:0/1"}) {
+        EXPECT_EQ(last_estimate(scene, devices), expected) << devices;
     }
 }
 

@@ -59,6 +59,65 @@ TEST(Tolerance, IsKeptWithFewerIterationsThanTheMost) {
     EXPECT_TRUE(simulation.troubles().empty());
 }
 
+/// Two sheets that press each other.
+Scene touching(const std::string& solver) {
+    return parse_scene(R"(
+[scene]
+frames = 12
+dt = 0.016666667
+substeps = 4
+[contact]
+thickness = 0.02
+friction = 0.3
+[[cloth]]
+name = "low"
+grid = { size = [0.5, 0.5], resolution = [9, 9] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+pins = { edges = ["x-", "x+"] }
+[[cloth]]
+name = "high"
+grid = { size = [0.3, 0.3], resolution = [7, 7] }
+rotate = [0, 1, 0, 20]
+translate = [0.01, 0.016, 0.02]
+density = 0.2
+stretch = { stiffness = 300.0 }
+[solver]
+)" + solver,
+                       "test.toml");
+}
+
+TEST(Tolerance, IsKeptInContact) {
+    const Scene scene = touching(kReachable);
+    Simulation simulation = simulation_of(scene);
+    int estimates = 0;
+    std::uint32_t fewest = 256;
+    std::uint32_t most_touching = 0;
+    while (simulation.frame() < scene.frames) {
+        const FrameRecord frame = simulation.advance();
+        fewest = std::min(fewest, frame.iterations);
+        most_touching = std::max(most_touching, frame.contacts.front().touching);
+        if (!std::isfinite(frame.relative_error)) continue;
+        EXPECT_LE(frame.relative_error, 1e-2) << frame.frame;
+        ++estimates;
+    }
+    EXPECT_GE(estimates, 3);
+    EXPECT_LT(fewest, 256U);
+    EXPECT_GT(most_touching, 50U);
+    EXPECT_TRUE(simulation.troubles().empty());
+}
+
+TEST(Tolerance, SaysWhatWouldReachItInContact) {
+    Simulation simulation =
+        simulation_of(touching("method = \"vbd\"\niterations = 2\ntolerance = 1.0e-3\n"));
+    while (simulation.troubles().empty() && simulation.frame() < 12) simulation.advance();
+    ASSERT_EQ(simulation.troubles().size(), 1U);
+    const std::string& what = simulation.troubles().front().what;
+    EXPECT_TRUE(std::regex_search(what, std::regex("[0-9]+ substeps of [0-9]+ iterations")))
+        << what;
+    EXPECT_EQ(what.find("by newton"), std::string::npos) << "which knows no contact: " << what;
+}
+
 std::string hash_on(const std::string& devices) {
     Simulation simulation = simulation_of(swinging(kReachable), devices);
     while (simulation.frame() < 24) simulation.advance();
