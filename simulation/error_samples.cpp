@@ -84,12 +84,11 @@ bool ErrorSamples::doubts(double strain, double error) const {
     return strain > plain_strain(first_strain_) && error > kHardlySolved;
 }
 
-std::optional<double> ErrorSamples::end(const Model& model, std::vector<char> held,
-                                        std::vector<FrozenContact> contacts) {
+std::optional<double> ErrorSamples::end(const Model& model, std::vector<FrozenContact> contacts) {
     is_begun_ = false;
     if (!error_) error_ = std::make_unique<StepError>(model.scene, threads_);
     ends_->reached = model.in_scene_order(model.positions->span());
-    ends_->held = std::move(held);
+    ends_->held = held_by_obstacles(model, ends_->time + model.h);
     ends_->contacts = std::move(contacts);
     return error_->of(*ends_);
 }

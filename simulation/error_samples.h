@@ -22,10 +22,9 @@ public:
     /// No substep of this frame is.
     void skip() { is_begun_ = false; }
     bool is_begun() const { return is_begun_; }
-    /// The model is at its end; it was begun. Of its end: held and contacts as SubstepEnds has
-    /// them. None: see StepError
-    std::optional<double> end(const Model& model, std::vector<char> held,
-                              std::vector<FrozenContact> contacts);
+    /// The model is at its end; it was begun. contacts: as SubstepEnds has them. None: see
+    /// StepError
+    std::optional<double> end(const Model& model, std::vector<FrozenContact> contacts);
     // Of edges, RMS. Where they become plainly longer, frames are chosen for that, too.
     /// Before anything has happened: nobody has to answer for that.
     void expect_strain(double strain) { first_strain_ = last_strain_ = most_strain_ = strain; }

@@ -391,7 +391,7 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
 /// Of the frame that has just run. None: its last substep is no sample.
 std::optional<double> Simulation::estimate() {
     if (!samples_ || !samples_->is_begun()) return std::nullopt;
-    return samples_->end(*model_, held_at(time() + model_->scene.dt), contacts());
+    return samples_->end(*model_, contacts());
 }
 
 /// Whether the frame is to be done again with more iterations.
@@ -444,19 +444,6 @@ std::vector<FrozenContact> Simulation::contacts() {
     if (contact == nullptr) return {};
     for (BufferStorage* buffer : contact->rows().buffers()) run_->executor().fetch(*buffer);
     return with_corners(contact->frozen(), model_->strips.order);
-}
-
-std::vector<char> Simulation::held_at(double time) {
-    std::vector<char> held = held_by_obstacles(*model_, time);
-    ContactResponse* contact = solver_->contact();
-    if (contact == nullptr) return held;
-    run_->executor().fetch(contact->cut());
-    held.resize(model_->positions->count());
-    for (std::size_t v = 0; v < held.size(); ++v) {
-        if (contact->cut()[v] == 0) continue;
-        held[static_cast<std::size_t>(model_->scene_vertex(static_cast<int>(v)))] = 1;
-    }
-    return held;
 }
 
 /// What is not guaranteed is told, where it happens.

@@ -129,9 +129,6 @@ public:
     /// The contacts that the last substep found where it began; corners in scene order. Empty:
     /// none, or no [contact].
     std::vector<FrozenContact> contacts();
-    /// Whether an obstacle, at a time [s], or contact's planes keep a vertex where it is, in scene
-    /// order. Empty: there is nothing that could.
-    std::vector<char> held_at(double time);
 
     /// For traces: everything that is known before the first frame but the command line.
     RunDescription describe() const;

@@ -28,14 +28,18 @@ public:
         : model_(model),
           positions_(model.positions->span().size()),
           held_(positions_.size()),
-          knots_(positions_.size()) {
+          knots_(positions_.size()),
+          tied_(positions_.size()) {
         const std::vector<int> knots = knots_of(model, model.scene.contact->thickness);
+        std::vector<int> of_knot(positions_.size());
+        for (const int knot : knots) ++of_knot[static_cast<std::size_t>(knot)];
         for (std::size_t v = 0; v < positions_.size(); ++v) {
             const float4& x = (*model.positions)[v];
             const auto s = static_cast<std::size_t>(model.scene_vertex(static_cast<int>(v)));
             positions_[s] = {x.x, x.y, x.z};
             held_[s] = x.w == 0.0f ? 1 : 0;
             knots_[s] = knots[v];
+            tied_[s] = of_knot[static_cast<std::size_t>(knots[v])] > 1 ? 1 : 0;
         }
     }
 
@@ -45,6 +49,11 @@ public:
     }
     int body(int t) const { return model_.triangle_body[static_cast<std::size_t>(t)]; }
     Vec3 position(int vertex) const { return positions_[static_cast<std::size_t>(vertex)]; }
+    int knot(int vertex) const { return knots_[static_cast<std::size_t>(vertex)]; }
+    bool is_tied(int vertex) const { return tied_[static_cast<std::size_t>(vertex)] != 0; }
+    const std::array<int, 3>& triangle(int t) const {
+        return model_.triangles[static_cast<std::size_t>(t)];
+    }
 
     bool counts(int a, int b) const {
         if (body(a) == body(b) && !model_.scene.contact->self) return false;
@@ -56,25 +65,22 @@ public:
     }
 
 private:
-    const std::array<int, 3>& triangle(int t) const {
-        return model_.triangles[static_cast<std::size_t>(t)];
-    }
     bool is_held(int t) const {
         return std::ranges::all_of(triangle(t),
                                    [&](int v) { return held_[static_cast<std::size_t>(v)] != 0; });
     }
-    int knot(int vertex) const { return knots_[static_cast<std::size_t>(vertex)]; }
     bool share_a_knot(int a, int b) const {
         return std::ranges::any_of(triangle(a), [&](int v) {
-            return std::ranges::find(triangle(b), knot(v),
-                                     [&](int w) { return knot(w); }) != triangle(b).end();
+            return std::ranges::find(triangle(b), knot(v), [&](int w) { return knot(w); }) !=
+                   triangle(b).end();
         });
     }
 
     const Model& model_;
     std::vector<Vec3> positions_;  ///< in scene order
     std::vector<char> held_;
-    std::vector<int> knots_;       ///< likewise
+    std::vector<int> knots_;  ///< likewise
+    std::vector<char> tied_;  ///< likewise: whether a knot has others
 };
 
 /// Pairs nearer than `floor` that do not cross.
@@ -103,6 +109,35 @@ void find_near(const StartSurface& start, const BoxTree& tree, double floor,
     for (const Near& near : found) {
         contacts.near.insert(contacts.near.end(), near.pairs.begin(), near.pairs.end());
         contacts.least = std::min(contacts.least, near.least);
+    }
+}
+
+// ---- bodies upon others ----
+
+/// Whether a corner of the triangle is tied to a vertex of another body in the same place.
+bool is_tied_upon(const StartSurface& start, int t, int corner, double floor,
+                  const std::multimap<int, std::pair<int, int>>& by_knot) {
+    const auto [first, last] = by_knot.equal_range(start.knot(corner));
+    return std::any_of(first, last, [&](const auto& entry) {
+        const auto [vertex, body] = entry.second;
+        return body != start.body(t) &&
+               length(start.position(vertex) - start.position(corner)) <= floor;
+    });
+}
+
+void find_overlaid(const StartSurface& start, int triangles, double floor,
+                   StartContacts& contacts) {
+    std::multimap<int, std::pair<int, int>> by_knot;  // vertex, body
+    for (int t = 0; t < triangles; ++t) {
+        for (const int v : start.triangle(t)) {
+            if (start.is_tied(v)) by_knot.insert({start.knot(v), {v, start.body(t)}});
+        }
+    }
+    for (int t = 0; t < triangles && !by_knot.empty(); ++t) {
+        if (std::ranges::all_of(start.triangle(t),
+                                [&](int v) { return is_tied_upon(start, t, v, floor, by_knot); })) {
+            contacts.overlaid.push_back(t);
+        }
     }
 }
 
@@ -249,6 +284,11 @@ public:
                            pairs.size() == 1 ? "" : "s", fmt::join(named, "; "),
                            pairs.size() > kNamedPairs ? "; ..." : "");
     }
+    std::string overlaid(const std::vector<int>& triangles) const {
+        return fmt::format("{} triangle{} upon what their corners are tied to (the first: {})",
+                           triangles.size(), triangles.size() == 1 ? " lies" : "s lie",
+                           triangle(triangles.front()));
+    }
     std::string swallowed(const StartContacts::Swallowed& what) const {
         const BodyRange& body = model_.bodies[static_cast<std::size_t>(what.body)];
         const BodyRange& outer = model_.bodies[static_cast<std::size_t>(what.inside)];
@@ -270,6 +310,7 @@ private:
 std::vector<std::string> what_crosses(const StartContacts& contacts, const Words& words) {
     std::vector<std::string> texts;
     if (!contacts.crossings.empty()) texts.push_back(words.crossings(contacts.crossings));
+    if (!contacts.overlaid.empty()) texts.push_back(words.overlaid(contacts.overlaid));
     for (const auto& what : contacts.swallowed) {
         if (texts.size() < kNamedPairs) texts.push_back(words.swallowed(what));
     }
@@ -286,6 +327,7 @@ StartContacts find_start_contacts(const Model& model, double floor) {
     contacts.crossings =
         find_crossings(surface, tree, [&](int a, int b) { return start.counts(a, b); });
     find_near(start, tree, floor, contacts);
+    find_overlaid(start, static_cast<int>(model.triangles.size()), floor, contacts);
     if (contacts.crossings.empty()) find_swallowed(model, start, contacts);
     return contacts;
 }

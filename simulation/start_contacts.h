@@ -22,6 +22,9 @@ struct StartContacts {
         int vertex;        ///< of the body, in scene order
     };
     std::vector<Swallowed> swallowed;
+    /// Triangles that lie upon another body, to which all of their corners are tied: there is no
+    /// room for contact between them, and edges of the two may cross.
+    std::vector<int> overlaid;
     /// Nearer to each other than contact keeps surfaces apart.
     std::vector<TrianglePair> near;
     double least = 0.0;  ///< [m] distance of those

@@ -25,6 +25,7 @@ Scene scene_of_substep(Scene scene) {
     scene.dt /= scene.substeps;
     scene.substeps = 1;
     scene.obstacles.clear();
+    if (scene.contact) scene.contact->planes = false;
     scene.solver = {};
     scene.solver.method = Method::kNewton;
     scene.solver.iterations = 1;

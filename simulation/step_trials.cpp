@@ -63,7 +63,7 @@ StepTrials::Result StepTrials::run(Method method, int iterations, int repetition
     }
     SubstepEnds ends = start_;
     ends.reached = simulation.positions();
-    ends.held = simulation.held_at(simulation.time());
+    ends.held = held_by_obstacles(simulation.model(), simulation.time());
     ends.contacts = simulation.contacts();
     result.error = error_.of(ends).value_or(kNone);
     return result;

@@ -107,7 +107,8 @@ def _draw_depths(axis, weft, scene, devices, folder, tell):
     axis.set_title("7 how deep the ball is entered", loc="left")
     axis.set_xlabel("frame")
     axis.set_ylabel("deepest vertex [mm]")
-    axis.legend(fontsize=7)
+    axis.set_ylim(top=1.4 * axis.get_ylim()[1])  # room for the legend
+    axis.legend(fontsize=7, loc="upper left")
 
 
 def _depths(geometry, balls):

@@ -114,7 +114,7 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
         "--trajectory", options.trajectory,
         "measure whole runs instead: substeps x iterations, against a run with far smaller steps");
     for (const char* other :
-         {"--frame", "--start", "--substeps", "--max-iterations", "--obstacles"}) {
+         {"--frame", "--start", "--substeps", "--max-iterations", "--obstacles", "--planes"}) {
         flag->excludes(command.get_option(other));
     }
     const auto add = [&](const char* name, auto& value, const char* help) {
@@ -179,6 +179,11 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
         .add_flag("--obstacles", options.obstacles,
                   "leave obstacles in the step; errors are then squared distances from where the "
                   "first solver ends")
+        ->excludes(as_sweep);
+    command
+        .add_flag("--planes", options.planes,
+                  "leave in the step the planes by which [contact] keeps surfaces apart; what they "
+                  "hold back counts as error")
         ->excludes(as_sweep);
     add_trajectory_options(command, options);
 }

@@ -65,12 +65,12 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_triangles,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low,
-            WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* beyond,
-            WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
-            WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, int triangle_count,
-            float halo, float least, int instance) {
+            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const int* beyond, WEFT_GLOBAL const int* owned,
+            WEFT_GLOBAL const int* ring_begin, WEFT_GLOBAL const int* ring,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+            WEFT_GLOBAL int* others, int item_count, int triangle_count, float halo, float least,
+            int instance) {
     open_rows row = open_rows_of(rows, i, item_count);
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
@@ -97,10 +97,10 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
                 const triangle_corners k = {splat_whole(t), splat_whole(corners[t]),
                                             splat_whole(corners[t + triangle_count]),
                                             splat_whole(corners[t + 2 * triangle_count])};
-                const mask apart = differs_from(
-                    knot, splat_whole(knots[corners[t]]),
-                    splat_whole(knots[corners[t + triangle_count]]),
-                    splat_whole(knots[corners[t + 2 * triangle_count]]));
+                const mask apart =
+                    differs_from(knot, splat_whole(knots[corners[t]]),
+                                 splat_whole(knots[corners[t + triangle_count]]),
+                                 splat_whole(knots[corners[t + 2 * triangle_count]]));
                 const mask on = both(both(mine, overlaps(box, t_low, t_high)), apart);
                 if (!any_item(on)) continue;
                 const closest_points c = closest_vertex_triangle(
@@ -127,12 +127,11 @@ WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_vertices,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low,
-            WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* beyond,
-            WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
-            WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
-            float least, int instance) {
+            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const int* beyond, WEFT_GLOBAL const int* owned,
+            WEFT_GLOBAL const int* ring_begin, WEFT_GLOBAL const int* ring,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+            WEFT_GLOBAL int* others, int item_count, float halo, float least, int instance) {
     open_rows row = open_rows_of(rows, i, item_count);
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
@@ -227,10 +226,9 @@ WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int*
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const float4* patch_low,
             WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_edges,
             WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low,
-            WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
-            float least, int instance) {
+            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+            WEFT_GLOBAL int* others, int item_count, float halo, float least, int instance) {
     open_rows row = open_rows_of(rows, i, item_count);
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];

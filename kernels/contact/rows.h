@@ -79,9 +79,30 @@ WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, r
     return s;
 }
 
+/// Adds a contact's part of a vertex' gradient and Hessian block, where it is on.
+/// way       of the vertex since the snapshot [m]
+/// friction  Coulomb coefficient; 0: none
+/// creep     the way in a substep below which friction sticks [m]
+WEFT_INLINE derivatives add_push(derivatives s, contact_entry c, mask on, real3 way, float friction,
+                                 float creep) {
+    const mask is_near = smaller(c.gap, c.ahead) < c.range;
+    const real slope = contact_slope(c.gap, c.range, c.stiffness);
+    const real bound = contact_majorant(c.gap, c.ahead, c.range, c.stiffness);
+    const real block = both(on, is_near) ? bound * c.spread : splat(0.0f);
+    const real push = both(on, is_near) ? slope * c.own : splat(0.0f);
+    s.gradient = add_scaled(s.gradient, c.normal, push + block * dot3(c.normal, way));
+    s.hessian = add_sym(s.hessian, outer_sym(c.normal, block));
+    if (friction > 0.0f) {
+        const real press = both(on, is_near) ? -splat(friction) * slope : splat(0.0f);
+        const real grip = friction_grip(length3(c.slip), splat(creep));
+        s = add_rubbing(s, c, press * grip, way);
+    }
+    return s;
+}
+
 /// Adds the contacts' part of each vertex' gradient and Hessian block.
 /// positions   [vertices] xyz [m]
-/// even, odd   [vertices] xyz, the snapshot of even and that of odd iterations [m]
+/// snapshots   [2 * vertices] xyz, of even and of odd iterations [m]
 /// vertices    [items] the vertex of each item
 /// rows        [2 * vertices] column-major: where the vertex' entries start, room for how many
 /// counts      [vertices] how many there are
@@ -90,21 +111,20 @@ WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, r
 /// weights     [entries] w_j, those of the vertex' side positive
 /// measures    [entries] |w| of the vertex, W |w|, stiffness [N/m], range [m]
 /// sums        [9 * items] see descent/rows.h
-/// friction    Coulomb coefficient; 0: none
-/// creep       the way in a substep below which friction sticks [m]
+/// friction, creep  as in add_push
 WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
-            WEFT_GLOBAL const float4* even, WEFT_GLOBAL const float4* odd,
-            WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL float* sums, int item_count, int iteration, float friction, float creep) {
+            WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* vertices,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* sums, int item_count,
+            int vertex_count, int iteration, float friction, float creep) {
     const integer vertex = load_index(vertices, i);
     const whole count = gather_whole(counts, vertex);
     const int longest = largest_whole(count);
     if (longest > 0) {
-        WEFT_GLOBAL const float4* snapshot = iteration % 2 == 0 ? even : odd;
+        WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
         const whole start = gather_whole(rows, vertex);
         const real3 way = subtract(xyz(gather4(positions, vertex)), xyz(gather4(snapshot, vertex)));
         derivatives s = load_derivatives(sums, i, item_count);
@@ -114,18 +134,7 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
             const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
-            const mask is_near = smaller(c.gap, c.ahead) < c.range;
-            const real slope = contact_slope(c.gap, c.range, c.stiffness);
-            const real bound = contact_majorant(c.gap, c.ahead, c.range, c.stiffness);
-            const real block = both(on, is_near) ? bound * c.spread : splat(0.0f);
-            const real push = both(on, is_near) ? slope * c.own : splat(0.0f);
-            s.gradient = add_scaled(s.gradient, c.normal, push + block * dot3(c.normal, way));
-            s.hessian = add_sym(s.hessian, outer_sym(c.normal, block));
-            if (friction > 0.0f) {
-                const real press = both(on, is_near) ? -splat(friction) * slope : splat(0.0f);
-                const real grip = friction_grip(length3(c.slip), splat(creep));
-                s = add_rubbing(s, c, press * grip, way);
-            }
+            s = add_push(s, c, on, way, friction, creep);
         }
         store_derivatives(sums, i, item_count, s);
     }
@@ -133,12 +142,11 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
 
 /// Lets all see the positions in the next iteration.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
-/// even, odd  [vertices] one of them written: the snapshot of even or that of odd iterations
+/// snapshots  [2 * vertices] written: of odd iterations in the second half
 /// ahead      by how many iterations behind this one is that which is to see it
-WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* even,
-            WEFT_GLOBAL float4* odd, int iteration, int ahead) {
-    WEFT_GLOBAL float4* snapshot = (iteration + ahead) % 2 == 0 ? even : odd;
-    store4(snapshot, i, load4(positions, i));
+WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* snapshots,
+            int vertex_count, int iteration, int ahead) {
+    store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), load4(positions, i));
 }
 
 WEFT_KERNELS_END

@@ -40,80 +40,57 @@ WEFT_KERNEL(add_lags, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const flo
     store4(partials, i, with_w(sum, splat(0.0f)));
 }
 
-/// The same, with w: how many of the column's vertices have contacts.
-/// contacts  [vertices] how many contacts each has
-WEFT_KERNEL(add_lags_and_contacts, WEFT_GLOBAL const float4* positions,
-            WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const int* members,
-            WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* contacts, WEFT_GLOBAL float4* partials) {
-    const real zero = splat(0.0f);
-    real3 sum = make3(zero, zero, zero);
-    real touching = zero;
-    const int length = rows[2 * i.first + 1];
-    for (int k = 0; k < length; ++k) {
-        const item entry = {rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
-        const integer v = load_index(members, entry);
-        const real3 lag = subtract(xyz(gather4(targets, v)), xyz(gather4(positions, v)));
-        sum = add_scaled(sum, lag, load(shares, entry));
-        const whole count = gather_whole(contacts, v);
-        touching = touching + (count > splat_whole(0) ? splat(1.0f) : zero);
-    }
-    store4(partials, i, with_w(sum, touching));
-}
-
 /// Adds up the columns of each run.
+/// partials      [parts * columns] column-major, as are lags
 /// first_column  [runs] of each run in `partials`
-/// lags          [runs] written: xyz [m], w as the columns'
+/// lags          [parts * lag_count] written for each run: of xyz alone [m], if there is one part
 WEFT_KERNEL(add_columns, WEFT_GLOBAL const float4* partials, WEFT_GLOBAL const int* first_column,
-            WEFT_GLOBAL float4* lags) {
-    real3 sum = make3(splat(0.0f), splat(0.0f), splat(0.0f));
-    real touching = splat(0.0f);
+            WEFT_GLOBAL float4* lags, int parts, int column_count, int lag_count) {
+    const real zero = splat(0.0f);
     const integer first = load_index(first_column, i);
-    for (int k = 0; k < WEFT_RUN_COLUMNS; ++k) {
-        const real4 column_sum = gather4(partials + k, first);
-        sum = add(sum, xyz(column_sum));
-        touching = touching + column_sum.w;
+    for (int part = 0; part < parts; ++part) {
+        WEFT_GLOBAL const float4* columns = partials + part * column_count;
+        real4 sum = {zero, zero, zero, zero};
+        for (int k = 0; k < WEFT_RUN_COLUMNS; ++k) {
+            const real4 column_sum = gather4(columns + k, first);
+            sum = with_w(add(xyz(sum), xyz(column_sum)), sum.w + column_sum.w);
+        }
+        store4(lags, column(i, lag_count, part), sum);
     }
-    store4(lags, i, with_w(sum, touching));
 }
 
 /// How far the body of each run has to go.
 /// lags       [runs + most_runs] of the runs, and rows of zeros
 /// first_run  [runs] the first one of the same body
 /// counts     [runs] of that body's runs
-/// shifts     [runs + 1] written: xyz [m], w as the lags'
+/// shifts     [runs + 1] written: xyz [m]
 /// most_runs  that a body has
 WEFT_KERNEL(add_runs, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* shifts, int most_runs) {
     const real zero = splat(0.0f);
     real3 sum = make3(zero, zero, zero);
-    real touching = zero;
     const integer first = load_index(first_run, i);
     const real count = load(counts, i);
     for (int k = 0; k < most_runs; ++k) {
         const real own = splat((float)k) < count ? splat(1.0f) : zero;
-        const real4 lag = gather4(lags + k, first);
-        sum = add_scaled(sum, xyz(lag), own);
-        touching = touching + lag.w * own;
+        sum = add_scaled(sum, xyz(gather4(lags + k, first)), own);
     }
-    store4(shifts, i, with_w(sum, touching));
+    store4(shifts, i, with_w(sum, zero));
 }
 
 /// Moves the vertices of free bodies, and their velocities by as much per substep: to these
-/// nothing is lost by rounding, whereas a shift may be too small for a coordinate. What touches
-/// another body, or itself, is not free: contacts push it.
+/// nothing is lost by rounding, whereas a shift may be too small for a coordinate.
 /// positions   [vertices] xyz [m]
 /// deviations  [vertices] xyz: x - x~ [m]
 /// velocities  [vertices] xyz [m/s], w = what damping leaves per substep
-/// shifts      [runs + 1] xyz [m], w: not 0 where the body is not free; the last one is zero
-/// runs        [vertices] the run of each vertex; number `runs` for those that something holds
+/// shifts      [runs + 1] xyz [m]; the last one is zero
+/// runs        [vertices] the run of each vertex, or another number of what is shifted as one; the
+///             last one for those that something holds
 /// inverse_h   1 / h [1/s], h the substep
 WEFT_KERNEL(shift_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* shifts,
             WEFT_GLOBAL const int* runs, float inverse_h) {
-    const real4 lag = gather4(shifts, load_index(runs, i));
-    const real free = lag.w > splat(0.0f) ? splat(0.0f) : splat(1.0f);
-    const real3 shift = scale(xyz(lag), free);
+    const real3 shift = xyz(gather4(shifts, load_index(runs, i)));
     const real4 x = load4(positions, i);
     const real4 deviation = load4(deviations, i);
     const real4 v = load4(velocities, i);

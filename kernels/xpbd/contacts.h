@@ -20,18 +20,17 @@ WEFT_KERNELS_BEGIN
 /// Lets all see where the elements have led the vertices.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
 /// counts     [vertices] how many contacts each has
-/// even, odd  [vertices] one of them written, as by take_snapshot (contact/rows.h); w = 1/mass of
-///            the part of a contact [1/kg]
-/// ahead      likewise
+/// snapshots  [2 * vertices] written: of odd iterations in the second half; w = 1/mass of the part
+///            of a contact [1/kg]
+/// ahead      by how many iterations behind this one is that which is to see it
 WEFT_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL float4* even, WEFT_GLOBAL float4* odd, int iteration, int ahead) {
+            WEFT_GLOBAL float4* snapshots, int vertex_count, int iteration, int ahead) {
     const real4 x = load4(positions, i);
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     real light = splat(0.0f);
     for (int k = 0; k < longest; ++k) light = splat_whole(k) < count ? light + x.w : light;
-    WEFT_GLOBAL float4* snapshot = (iteration + ahead) % 2 == 0 ? even : odd;
-    store4(snapshot, i, with_w(xyz(x), light));
+    store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), with_w(xyz(x), light));
 }
 
 /// By how much the multiplier of a contact changes.
@@ -46,22 +45,21 @@ WEFT_INLINE real change_of_multiplier(contact_entry c, real multiplier, real lig
 
 /// Pushes vertices apart. Over all vertices.
 /// positions    [vertices] xyz [m], w = 1/mass [1/kg]; written where there are contacts
-/// even, odd    [vertices] as share_masses leaves them
+/// snapshots    [2 * vertices] as share_masses leaves them
 /// multipliers  [entries] l [N s^2]; taken as 0 in iteration 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// others as in gather_contacts (contact/rows.h)
-WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* even,
-            WEFT_GLOBAL const float4* odd, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts,
+WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
             WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
             WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
             WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* multipliers, float inverse_h2,
-            int iteration) {
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* multipliers, int vertex_count,
+            float inverse_h2, int iteration) {
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     if (longest > 0) {
-        WEFT_GLOBAL const float4* snapshot = iteration % 2 == 0 ? even : odd;
+        WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
         const whole start = load_whole(rows, i);
         const real zero = splat(0.0f);
         const real4 x = load4(positions, i);

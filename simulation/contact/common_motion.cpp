@@ -135,6 +135,18 @@ void CommonMotion::hold() {
     }
 }
 
+std::vector<BufferStorage*> CommonMotion::placed_buffers() {
+    std::vector<BufferStorage*> buffers{&carried_, &fences_, &foresees_};
+    if (!grouped_) return buffers;
+    for (BufferStorage* buffer : grouped_->buffers()) buffers.push_back(buffer);
+    return buffers;
+}
+
+BodyGroups& CommonMotion::group(std::vector<std::vector<int>> parts) {
+    grouped_ = std::make_unique<BodyGroups>(substeps_, std::move(parts));
+    return *grouped_;
+}
+
 void CommonMotion::place(double time) {
     foresees_[0] = 1;
     add_up_gravity();
@@ -310,12 +322,26 @@ void CommonMotion::place_substep(int substep, Groups& known) {
         }
     }
     carry(substep, together);
+    if (grouped_) grouped_->place(substep, free_groups(boxes));
     const bool somebody_moves = std::ranges::any_of(together, is_moving);
     const auto is_led_alike = [&](const Body& b) { return b.led == bodies_.front().led; };
     if (somebody_moves || !std::ranges::all_of(bodies_, is_led_alike))
         build_fences(substep, split_groups(groups, together), boxes);
     else
         open_fences(substep);
+}
+
+/// Of bodies that may meet, without those of which something is held.
+std::vector<int> CommonMotion::free_groups(const std::vector<IntervalBox>& boxes) const {
+    std::vector<int> groups = each_alone(body_count());
+    for (const auto& [c, d] : near_) {
+        const int a = chunks_[at(c)].body;
+        const int b = chunks_[at(d)].body;
+        if (groups[at(a)] == groups[at(b)] || bodies_[at(a)].is_held || bodies_[at(b)].is_held)
+            continue;
+        if (gap_between(boxes[at(c)], boxes[at(d)]) <= 0.0) join(groups, a, b);
+    }
+    return groups;
 }
 
 /// Whether somebody moves into an obstacle who was not known to do so.

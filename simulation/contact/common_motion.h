@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "runtime/buffer.h"
+#include "simulation/contact/body_groups.h"
 #include "simulation/contact/interval_box.h"
 #include "simulation/contact/obstacle_boxes.h"
 #include "simulation/contact/surface.h"
@@ -39,7 +41,11 @@ public:
     bool revise();
     /// With which what is near a vertex moves together in the frame's last substep [m/s].
     Vec3 last_velocity(int vertex) const;
-    std::vector<BufferStorage*> placed_buffers() { return {&carried_, &fences_, &foresees_}; }
+    std::vector<BufferStorage*> placed_buffers();
+
+    /// From now on frames are filled in with the groups of bodies that are parts of the scene's, or
+    /// several of them; see BodyGroups.
+    BodyGroups& group(std::vector<std::vector<int>> parts);
 
     int body_count() const { return static_cast<int>(bodies_.size()); }
     int chunk_count() const { return static_cast<int>(chunks_.size()); }
@@ -91,6 +97,7 @@ private:
     /// Of bodies in groups: with which the group moves, 0 where it does not, or one is blocked.
     std::vector<Vec3> common_velocities(int substep, const std::vector<int>& groups,
                                         const std::vector<char>& is_blocked) const;
+    std::vector<int> free_groups(const std::vector<IntervalBox>& boxes) const;
     bool block(int substep, const std::vector<Vec3>& together,
                const std::vector<IntervalBox>& boxes, std::vector<char>& is_blocked) const;
     IntervalBox reached(const Chunk& chunk, int substep, Vec3 together) const;
@@ -115,6 +122,7 @@ private:
     Buffer<int>& foresees_;
     Buffer<int> body_of_, chunk_of_, strays_, unquiet_;
     Buffer<float4> carried_, fences_;
+    std::unique_ptr<BodyGroups> grouped_;  ///< null: nobody asked for groups
 };
 
 }  // namespace weft

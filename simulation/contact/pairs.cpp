@@ -122,25 +122,25 @@ void ContactPairs::make_near_body(int kind) {
 
 void ContactPairs::make_pairs_body(int kind) {
     RowTable& near = near_.table;
-    pairs_ = {
-        "pairs",
-        kind,
-        {launch_on(kernels::find_triangles, s_.vertices.items, points_, s_.vertices.patches,
-                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
-                   s_.triangles.begin, s_.corners, s_.knots, triangle_low_, triangle_high_, s_.beyond,
-                   s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
-                   vt_.table.needs(), vt_.others, surface_.vertex_count(),
-                   surface_.triangle_count(), halo_, settings_.least, kInstance),
-         launch_on(kernels::find_vertices, s_.triangles.items, points_, s_.triangles.patches,
-                   near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
-                   s_.vertices.begin, s_.corners, s_.knots, triangle_low_, triangle_high_, s_.beyond,
-                   s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(), tv_.table.counts(),
-                   tv_.table.needs(), tv_.others, surface_.triangle_count(), halo_, settings_.least,
-                   kInstance),
-         launch_on(kernels::find_edges, s_.edges.items, points_, s_.edges.patches, near.rows(),
-                   near.counts(), near_.others, patch_low_, patch_high_, s_.edges.begin, s_.ends, s_.knots,
-                   edge_low_, edge_high_, ee_.table.rows(), ee_.table.counts(), ee_.table.needs(),
-                   ee_.others, surface_.edge_count(), halo_, settings_.least, kInstance)}};
+    pairs_ = {"pairs",
+              kind,
+              {launch_on(kernels::find_triangles, s_.vertices.items, points_, s_.vertices.patches,
+                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                         s_.triangles.begin, s_.corners, s_.knots, triangle_low_, triangle_high_,
+                         s_.beyond, s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(),
+                         vt_.table.counts(), vt_.table.needs(), vt_.others, surface_.vertex_count(),
+                         surface_.triangle_count(), halo_, settings_.least, kInstance),
+               launch_on(kernels::find_vertices, s_.triangles.items, points_, s_.triangles.patches,
+                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                         s_.vertices.begin, s_.corners, s_.knots, triangle_low_, triangle_high_,
+                         s_.beyond, s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(),
+                         tv_.table.counts(), tv_.table.needs(), tv_.others,
+                         surface_.triangle_count(), halo_, settings_.least, kInstance),
+               launch_on(kernels::find_edges, s_.edges.items, points_, s_.edges.patches,
+                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
+                         s_.edges.begin, s_.ends, s_.knots, edge_low_, edge_high_, ee_.table.rows(),
+                         ee_.table.counts(), ee_.table.needs(), ee_.others, surface_.edge_count(),
+                         halo_, settings_.least, kInstance)}};
 }
 
 /// The triangles of a strip reach into the next one.

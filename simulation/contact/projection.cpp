@@ -14,7 +14,7 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
 
 Launch ContactProjection::share(int ahead) {
     return launch(kernels::share_masses, model_.vertices(), *model_.positions, rows_.table.counts(),
-                  snapshots_[0], snapshots_[1], kIteration, ahead);
+                  snapshots_, model_.vertex_count(), kIteration, ahead);
 }
 
 void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
@@ -23,24 +23,26 @@ void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
 
 void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
                                               int last) {
-    task.reads(rows_.table.counts(), first, last)
-        .updates(snapshots_[static_cast<std::size_t>(iteration % 2)], first, last);
+    const int half = iteration % 2 * model_.vertex_count();
+    task.reads(rows_.table.counts(), first, last).updates(snapshots_, half + first, half + last);
 }
 
 Launch ContactProjection::project() {
-    return launch(kernels::project_contacts, model_.vertices(), *model_.positions, snapshots_[0],
-                  snapshots_[1], rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
+    return launch(kernels::project_contacts, model_.vertices(), *model_.positions, snapshots_,
+                  rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
                   rows_.corner2, rows_.corner3, rows_.normals, rows_.weights, rows_.measures,
-                  multipliers_,
+                  multipliers_, model_.vertex_count(),
                   static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
 }
 
 void ContactProjection::add_project_accesses(Step::Adding& task, int iteration, int first_strip,
                                              int end_strip) {
+    const int all = model_.vertex_count();
+    const int half = iteration % 2 * all;
     const int first = model_.vertices().item(first_strip);
     const int last = model_.vertices().item(end_strip);
     task.updates(*model_.positions, first, last)
-        .reads(snapshots_[static_cast<std::size_t>(iteration % 2)], 0, model_.vertex_count())
+        .reads(snapshots_, half, half + all)
         .updates(multipliers_, rows_.table.entries());
     rows_.add_reads(task, first_strip, end_strip, first, last);
 }

@@ -25,7 +25,7 @@ private:
 
     Model& model_;
     ContactRows rows_;
-    ContactResponse::Snapshots& snapshots_;
+    Buffer<float4>& snapshots_;   ///< [2 * vertices] the contacts'
     Buffer<float>& multipliers_;  ///< [entries of the rows]
 };
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "kernels/contact/begin.h"
+#include "kernels/contact/bodies.h"
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
 #include "kernels/contact/quiet.h"
@@ -34,6 +35,8 @@ constexpr double kCreepSpeed = 1e-3;  ///< below which friction sticks [m/s]
 constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels/contact/fill.h
 constexpr float kFar = 1e29f;       ///< distances beyond this are none [m]; likewise
 constexpr int kFirstRoom = 4;       ///< of a row
+
+constexpr std::size_t kShowing = 2;  ///< where the fill task's launches show the start
 
 /// The largest coordinate [m].
 double reach_of(const Model& model) {
@@ -119,8 +122,9 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       anchors_("contact.anchors", model.positions->count()),
       goals_("contact.goals", model.positions->count()),
       stiffness_("contact.stiffness", model.positions->count()),
-      pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips), rest_of(model), anchors_, goals_,
-             model.vertices(), {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
+      pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips),
+             rest_of(model), anchors_, goals_, model.vertices(),
+             {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
       motion_(model, pairs_.surface(), model.scene.contact->thickness,
               2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),
       quiet_("contact.quiet_vertices", model.positions->count()),
@@ -140,8 +144,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       nearest_("contact.nearest", model.positions->count()),
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
-      snapshots_{Buffer<float4>("contact.even", model.positions->count()),
-                 Buffer<float4>("contact.odd", model.positions->count())},
+      snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
     copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
@@ -166,11 +169,14 @@ void ContactResponse::make_fill() {
                 corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
                 model_.vertex_count(), pairs_.surface().triangle_count(),
                 pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
-         truncation(*model_.positions, kStartSlack * range_),
+         snapshot(*model_.positions, 0), snapshot(*model_.positions, 1),
          launch(kernels::find_strays, pairs_.buffers().patches.segments, pairs_.patch_low(),
                 pairs_.patch_high(), static_cast<Buffer<int>&>(pairs_.buffers().bodies),
                 motion_.carried(), motion_.chunk_of(), motion_.fences(), motion_.strays(),
                 motion_.body_count(), motion_.chunk_count(), kInstance)}};
+    if (!model_.scene.contact->planes) return;
+    fill_.launches.insert(fill_.launches.begin() + 1,
+                          truncation(*model_.positions, kStartSlack * range_));
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {
@@ -241,8 +247,9 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     }
     task.updates(least_, first, last)
         .updates(nearest_, first, last)
-        .updates(cut_, first, last);
-    for (Buffer<float4>& shown : snapshots_) task.updates(shown, first, last);
+        .updates(cut_, first, last)
+        .updates(snapshots_, first, last)
+        .updates(snapshots_, all + first, all + last);
     const Segments& patches = pairs_.buffers().patches.segments;
     const std::pair own(patches.item(region.begin), patches.item(region.end));
     task.reads(pairs_.patch_low(), own.first, own.second)
@@ -263,29 +270,41 @@ void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region
 
 Launch ContactResponse::gather(const Segments& segments, Buffer<float4>& positions,
                                VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, positions, snapshots_[0], snapshots_[1], items, sums);
+    return gather_from(segments, positions, snapshots_, model_.vertex_count(), items, sums);
 }
 
-/// In all iterations, and no way from there.
+/// No second half, and no way from there.
 Launch ContactResponse::gather_at(const Segments& segments, Buffer<float4>& shared,
                                   VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, shared, shared, shared, items, sums);
+    return gather_from(segments, shared, shared, 0, items, sums);
 }
 
 Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& positions,
-                                    Buffer<float4>& even, Buffer<float4>& odd, VertexItems& items,
+                                    Buffer<float4>& snapshots, int second_half, VertexItems& items,
                                     Buffer<float>& sums) {
-    return launch(kernels::gather_contacts, segments, positions, even, odd, items.vertices(),
+    return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
                   contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, sums, items.count(), kIteration, friction_,
-                  creep_);
+                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration,
+                  friction_, creep_);
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
                                           int end_strip) {
     const auto [first, last] = vertices(first_strip, end_strip);
-    task.reads(snapshots_[static_cast<std::size_t>(iteration % 2)], 0, model_.vertex_count());
+    const int all = model_.vertex_count();
+    const int half = iteration % 2 * all;
+    task.reads(snapshots_, half, half + all);
     rows().add_reads(task, first_strip, end_strip, first, last);
+}
+
+Launch ContactResponse::add_lags(const BodyColumns& columns, Buffer<float4>& positions,
+                                 Buffer<float4>& targets, Buffer<int>& bodies, BodyGroups& groups,
+                                 Buffer<float4>& partials) {
+    return launch(kernels::add_pushed_lags, columns.by_strip, positions, targets, columns.members,
+                  columns.shares, columns.rows, bodies, groups.leaders, contacts_.rows(),
+                  contacts_.counts(), corner0_, corner1_, corner2_, corner3_, normals_, weights_,
+                  measures_, partials, friction_, creep_, static_cast<float>(model_.h * model_.h),
+                  columns.count, groups.body_count(), kInstance);
 }
 
 Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
@@ -295,11 +314,12 @@ Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
-    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_[0],
-                  snapshots_[1], kIteration, ahead);
+    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_,
+                  model_.vertex_count(), kIteration, ahead);
 }
 
 void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    if (!model_.scene.contact->planes) return;
     launches.push_back(truncation(positions, kSoftSlack * floor_));
 }
 
@@ -317,17 +337,14 @@ void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>
 
 void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
                                             int last) {
-    task.updates(snapshots_[static_cast<std::size_t>((iteration + 1) % 2)], first, last);
+    const int half = (iteration + 1) % 2 * model_.vertex_count();
+    task.updates(snapshots_, half + first, half + last);
 }
 
-void ContactResponse::show_start() {
-    show_start(snapshot(*model_.positions, 0), snapshot(*model_.positions, 1));
-}
-
-/// Both, since somebody who hears late of others sees of them in iteration 1 where they began.
+/// Both halves: who hears late of others sees of them where they began, not an earlier substep.
 void ContactResponse::show_start(Launch even, Launch odd) {
-    fill_.launches.push_back(std::move(even));
-    fill_.launches.push_back(std::move(odd));
+    fill_.launches[kShowing] = std::move(even);
+    fill_.launches[kShowing + 1] = std::move(odd);
 }
 
 void ContactResponse::add_count(std::vector<Launch>& launches) {
@@ -383,15 +400,7 @@ std::vector<FrozenContact> ContactResponse::frozen() {
 
 void ContactResponse::put(std::span<const FrozenContact> contacts,
                           std::span<const float4> positions, std::span<const float4> targets) {
-    constexpr float kNoLimit = 1e15f;
-    const ContactRows rows = this->rows();
-    fill_rows(rows, contacts, positions, targets);
-    std::ranges::fill(planes_table_.counts().span(), 0);
-    std::ranges::fill(least_.span(), kNoLimit);
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        anchors_[v] = positions[v];
-        anchors_[v].w = kNoLimit;
-    }
+    fill_rows(rows(), contacts, positions, targets);
 }
 
 ContactRecord ContactResponse::account() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "runtime/trace/records.h"
+#include "simulation/contact/body_columns.h"
 #include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
 #include "simulation/contact/frozen.h"
@@ -54,6 +54,12 @@ public:
     /// What the first needs, of vertices in strips [first_strip, end_strip).
     void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
+    /// Adds up how far free bodies lag behind, and how contacts push them as wholes
+    /// (kernels/contact/bodies.h); the positions are those of all vertices.
+    /// bodies: [vertices], partials: as the kernel's
+    Launch add_lags(const BodyColumns& columns, Buffer<float4>& positions, Buffer<float4>& targets,
+                    Buffer<int>& bodies, BodyGroups& groups, Buffer<float4>& partials);
+
     /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.
     void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions);
     /// What that needs of its own strips.
@@ -61,12 +67,11 @@ public:
     /// Shows the positions to all in the next iteration.
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
-
-    /// [vertices] each: what gather() and its like see in even and in odd iterations.
-    using Snapshots = std::array<Buffer<float4>, 2>;
-    Snapshots& snapshots() { return snapshots_; }
-    /// What a substep begins with in both: for solvers that have gather(). Others make theirs.
-    void show_start();
+    /// [2 * vertices] what is shown: to even iterations in the first half, to odd ones in the
+    /// second.
+    Buffer<float4>& snapshots() { return snapshots_; }
+    /// What a substep begins with in both halves, instead of the positions; in the task that fills
+    /// the rows.
     void show_start(Launch even, Launch odd);
 
     /// At a substep's end: counts who was taken back.
@@ -90,8 +95,8 @@ public:
     Rubbing rubbing() const;
     /// Those of the last substep; the host has rows().
     std::vector<FrozenContact> frozen();
-    /// From now on these are the contacts, and nothing is held back by planes: for those who know
-    /// what a substep has found, and solve it once more. corners: new order; targets: [vertices] x~
+    /// From now on these are the contacts: for those who know what a substep has found, and solve
+    /// it once more, without planes. corners: new order; targets: [vertices] x~
     void put(std::span<const FrozenContact> contacts, std::span<const float4> positions,
              std::span<const float4> targets);
     ContactEnergy& energy() { return energy_; }
@@ -110,8 +115,10 @@ private:
     void make_fill();
     void add_fill(Step& step, const Region& region);
     void add_pair_accesses(Step::Adding& task, const Region& region);
-    Launch gather_from(const Segments& segments, Buffer<float4>& positions, Buffer<float4>& even,
-                       Buffer<float4>& odd, VertexItems& items, Buffer<float>& sums);
+    /// second_half: where it begins
+    Launch gather_from(const Segments& segments, Buffer<float4>& positions,
+                       Buffer<float4>& snapshots, int second_half, VertexItems& items,
+                       Buffer<float>& sums);
     Launch truncation(Buffer<float4>& positions, float soft);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
@@ -133,7 +140,7 @@ private:
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
-    Snapshots snapshots_;
+    Buffer<float4> snapshots_;
     TaskBody fill_;
     ContactEnergy energy_;
 };

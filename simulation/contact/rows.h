@@ -16,6 +16,8 @@ struct ContactRows {
     /// What reading the rows of strips [first_strip, end_strip) takes, which have the vertices
     /// [first, last).
     void add_reads(Step::Adding& task, int first_strip, int end_strip, int first, int last) const;
+    /// All of them, for Executor::fetch().
+    std::vector<BufferStorage*> buffers() const;
 };
 
 }  // namespace weft

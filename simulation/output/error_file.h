@@ -17,7 +17,8 @@ struct ErrorPoint {
     double relative_error = 0.0;  ///< (E - E*) / (E0 - E*)
     /// Of it, as runs make it (step_error.h); NaN: none.
     double estimate = std::numeric_limits<double>::quiet_NaN();
-    /// Vertices that contact's planes, which are no part of E, have taken back at the last.
+    /// Vertices that contact's planes, which are no part of E, may hold back: they have gone
+    /// farther than the nearest one is away.
     int truncated = 0;
 };
 

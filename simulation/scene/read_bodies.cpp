@@ -130,8 +130,7 @@ bool is_whole_block(const Shape& shape) {
 
 bool has_corner(const Shape& shape, const std::string& corner) {
     const bool is_of_block = corner.size() == 6;  // "x-y-z-", while a grid's are "x-z-"
-    return is_of_block ? is_whole_block(shape)
-                       : std::holds_alternative<GridShape>(shape);
+    return is_of_block ? is_whole_block(shape) : std::holds_alternative<GridShape>(shape);
 }
 
 /// Which vertices of a body with that shape.
@@ -273,9 +272,11 @@ SeamSide read_seam_side(const Node& table, const Scene& scene) {
 /// Puts a body where its copy number n is.
 void move_on(const Node& copies, int n, Transform& transform) {
     for (int k = 0; k < n; ++k) {
-        for (const Rotation& r : rotation_values(copies, "rotate")) transform.rotations.push_back(r);
+        for (const Rotation& r : rotation_values(copies, "rotate"))
+            transform.rotations.push_back(r);
     }
-    transform.translate = transform.translate + static_cast<double>(n) * vec3_value(copies, "translate");
+    transform.translate =
+        transform.translate + static_cast<double>(n) * vec3_value(copies, "translate");
 }
 
 }  // namespace

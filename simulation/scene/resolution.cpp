@@ -39,8 +39,7 @@ std::vector<Count> resolutions_of(Shape& shape) {
 
 void scale(Shape& shape, double factor) {
     for (const Count& count : resolutions_of(shape)) {
-        *count.value =
-            std::max(count.least, static_cast<int>(std::lround(*count.value * factor)));
+        *count.value = std::max(count.least, static_cast<int>(std::lround(*count.value * factor)));
     }
 }
 

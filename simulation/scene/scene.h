@@ -222,6 +222,9 @@ struct Contact {
     std::optional<double> friction;  ///< Coulomb coefficient, > 0
     /// Of a contact, in units of the least m / h^2 + stiffness at rest of its vertices, > 0.
     double stiffness = 4.0;
+    /// What nothing passes through, however little a step is solved. Only those who ask what the
+    /// energy alone would do leave them out.
+    bool planes = true;
 };
 
 /// [guard]: beyond either bound a state counts as exploded.

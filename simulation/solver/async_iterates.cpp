@@ -57,9 +57,14 @@ public:
 
 private:
     void add_buffer(std::size_t buffer, const Step& step, const Partition& partition) {
-        std::set<int> cuts{0, iterates_.pieces().strip_count};
-        for (const Part& part : partition.parts) {
-            cuts.insert(Iterates::kPiecesPerStrip * part.begin);
+        std::set<int> cuts;
+        for (int half = 0; half < iterates_.halves(buffer); ++half) {
+            const int first = half * iterates_.pieces_per_half();
+            cuts.insert(first);
+            for (const Part& part : partition.parts) {
+                cuts.insert(first + Iterates::kPiecesPerStrip * part.begin);
+            }
+            cuts.insert(first + iterates_.pieces_per_half());
         }
         for (const Task& task : step.tasks()) {
             for (const Access& access : task.accesses) {
@@ -244,7 +249,8 @@ std::vector<std::vector<double>> durations_by_device(const Step& step, const Par
 std::vector<int> AsyncIterates::owners_of(const Partition& partition, const Cells& cells) const {
     std::vector<int> owners;
     for (const auto& cell : cells.cells()) {
-        const int strip = cell.first_piece / Iterates::kPiecesPerStrip;
+        const int strip =
+            cell.first_piece % iterates_.pieces_per_half() / Iterates::kPiecesPerStrip;
         const auto part =
             std::ranges::find_if(partition.parts, [&](const Part& p) { return strip < p.end; });
         owners.push_back(by_kinds() ? largest_part(partition)

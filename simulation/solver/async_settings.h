@@ -34,7 +34,8 @@ struct AsyncSettings {
     std::optional<double> wait;  ///< until another device is told [iterations]; null: window - 1
     Merge merge = Merge::kAuto;
     bool dropping = false;  ///< scheduler/exchange_map.h
-    /// So many of the last iterations are synchronous; null: 1 where there are obstacles or contact.
+    /// So many of the last iterations are synchronous; null: 1 where there are obstacles or
+    /// contact.
     std::optional<int> settle;
 
     double wait_or_default() const { return wait.value_or(window - 1.0); }

@@ -15,19 +15,25 @@ DescentSubstep::DescentSubstep(Model& model, int first_kind)
       targets_("targets", static_cast<std::size_t>(model.vertex_count())),
       free_bodies_(FreeBodies::of(model)),
       contact_(ContactResponse::of(model, first_kind + (free_bodies_ ? 1 : 0))) {
-    if (model.obstacles || (contact_ && free_bodies_))
+    if (contact_ && free_bodies_) {
+        const int kind = first_kind + 1 + static_cast<int>(contact_->kinds().size());
+        touching_ = std::make_unique<TouchingBodies>(model, *free_bodies_, *contact_, kind);
+    }
+    if (model.obstacles || touching_)
         pushed_ = std::make_unique<Buffer<float4>>("pushed", targets_.count());
 }
 
 void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (!contact_) return;
     for (const TaskBody* body : contact_->bodies()) bodies.push_back(body);
+    if (touching_) bodies.push_back(&touching_->steps());
 }
 
 void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (free_bodies_) kinds.push_back("momentum");
     if (!contact_) return;
     for (std::string& kind : contact_->kinds()) kinds.push_back(std::move(kind));
+    if (touching_) kinds.push_back(touching_->steps().name);
 }
 
 std::vector<RowTable*> DescentSubstep::tables() {
@@ -64,7 +70,10 @@ std::vector<Launch> DescentSubstep::end() {
 
 /// Obstacles and contacts have the last word: a shift may lead into them.
 void DescentSubstep::add_shift(std::vector<Launch>& launches) {
-    for (Launch& shift : free_bodies_->shift(model_, targets_)) launches.push_back(shift);
+    if (touching_)
+        launches.push_back(touching_->shift(model_, targets_));
+    else
+        for (Launch& shift : free_bodies_->shift(model_, targets_)) launches.push_back(shift);
     if (!pushed_) return;
     launches.push_back(
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
@@ -78,7 +87,7 @@ void DescentSubstep::add_shift(std::vector<Launch>& launches) {
 }
 
 std::vector<Launch> DescentSubstep::sum_momentum(Buffer<float4>& positions) {
-    return free_bodies_->sum(positions, targets_, contact_ ? &contact_->counts() : nullptr);
+    return touching_ ? touching_->sum(positions, targets_) : free_bodies_->sum(positions, targets_);
 }
 
 void DescentSubstep::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
@@ -116,13 +125,15 @@ void DescentSubstep::add_sum(Step& step, const TaskBody& body, const Region& reg
     if (!free_bodies_->reach_into(region.begin, region.end)) return;
     const auto [first, last] = vertices(region.begin, region.end);
     auto task = step.add(body, iteration, region.begin, region.end, region.id);
-    task.reads(positions, first, last).reads(targets_, first, last);
+    task.reads(targets_, first, last);
+    if (touching_) return touching_->add_sum_accesses(task, region, positions);
+    task.reads(positions, first, last);
     free_bodies_->add_sum_accesses(task, region.begin, region.end);
-    if (contact_) task.reads(contact_->counts(), first, last);
 }
 
 Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
                                      int iteration) {
+    if (touching_ && region.begin == 0) touching_->add_steps(step, iteration);
     const auto [first, last] = vertices(region.begin, region.end);
     auto task = step.add(body, iteration, region.begin, region.end, region.id);
     task.reads(*model_.previous, first, last)
@@ -130,7 +141,8 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
         .updates(targets_, first, last);
     if (contact_) contact_->add_count_accesses(task, first, last);
     if (!free_bodies_) return task.reads(*model_.positions, first, last);
-    free_bodies_->add_shift_accesses(task);
+    if (!touching_) free_bodies_->add_shift_accesses(task);
+    if (touching_) touching_->add_shift_accesses(task);
     if (contact_) contact_->add_truncation_accesses(task, first, last);
     return task.updates(*model_.positions, first, last);
 }

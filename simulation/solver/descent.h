@@ -8,7 +8,7 @@
 #include "runtime/step.h"
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
-#include "simulation/solver/free_bodies.h"
+#include "simulation/solver/touching_bodies.h"
 
 namespace weft {
 
@@ -61,7 +61,8 @@ private:
     Buffer<float4> targets_;
     std::unique_ptr<FreeBodies> free_bodies_;  ///< null: none
     std::unique_ptr<ContactResponse> contact_;
-    std::unique_ptr<Buffer<float4>> pushed_;  ///< null: nothing pushes
+    std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
+    std::unique_ptr<Buffer<float4>> pushed_;    ///< null: nothing pushes
 };
 
 /// Which positions the elements of a range of vertices read.

@@ -90,6 +90,7 @@ void FreeBodies::fill_bodies() {
         std::fill(first_run_.data() + first, first_run_.data() + end, static_cast<int>(first));
         std::fill(counts_.data() + first, counts_.data() + end, static_cast<float>(end - first));
         most_runs_ = std::max(most_runs_, static_cast<int>(end - first));
+        ++body_count_;
         first = end;
     }
 }
@@ -123,29 +124,45 @@ bool FreeBodies::reach_into(int first_strip, int end_strip) const {
     return strip_runs_[at(first_strip)] < strip_runs_[at(end_strip)];
 }
 
-std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                                    Buffer<int>* contacts) {
-    return {contacts == nullptr
-                ? launch(kernels::add_lags, columns_by_strip_, positions, targets, *members_,
-                         *shares_, rows_, partials_)
-                : launch(kernels::add_lags_and_contacts, columns_by_strip_, positions, targets,
-                         *members_, *shares_, rows_, *contacts, partials_),
-            launch(kernels::add_columns, runs_by_strip_, partials_, first_column_, lags_)};
+int FreeBodies::column_count() const { return kColumns * run_count(); }
+
+std::pair<int, int> FreeBodies::runs_in(int first_strip, int end_strip) const {
+    return {strip_runs_[at(first_strip)], strip_runs_[at(end_strip)]};
+}
+
+BodyColumns FreeBodies::columns() {
+    return {*members_, *shares_, rows_, columns_by_strip_, column_count()};
+}
+
+std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets) {
+    return {launch(kernels::add_lags, columns_by_strip_, positions, targets, *members_, *shares_,
+                   rows_, partials_),
+            add_columns(partials_, lags_, 1, 0)};
+}
+
+Launch FreeBodies::add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts,
+                               int lag_count) {
+    return launch(kernels::add_columns, runs_by_strip_, partials, first_column_, lags, parts,
+                  column_count(), lag_count);
 }
 
 void FreeBodies::add_sum_accesses(Step::Adding& task, int first_strip, int end_strip) {
-    task.updates(lags_, strip_runs_[at(first_strip)], strip_runs_[at(end_strip)]);
+    const auto [first, last] = runs_in(first_strip, end_strip);
+    task.updates(lags_, first, last);
 }
 
 std::vector<Launch> FreeBodies::shift(Model& model, Buffer<float4>& deviations) {
     return {
         launch(kernels::add_runs, runs_by_strip_, lags_, first_run_, counts_, shifts_, most_runs_),
-        launch(kernels::shift_bodies, vertices_, *model.positions, deviations, *model.velocities,
-               shifts_, run_of_, static_cast<float>(1.0 / model.h))};
+        shift_by(shifts_, run_of_, model, deviations)};
 }
 
-void FreeBodies::add_shift_accesses(Step::Adding& task) {
-    task.reads(lags_, 0, static_cast<int>(runs_.size()));
+Launch FreeBodies::shift_by(Buffer<float4>& shifts, Buffer<int>& numbers, Model& model,
+                            Buffer<float4>& deviations) {
+    return launch(kernels::shift_bodies, vertices_, *model.positions, deviations, *model.velocities,
+                  shifts, numbers, static_cast<float>(1.0 / model.h));
 }
+
+void FreeBodies::add_shift_accesses(Step::Adding& task) { task.reads(lags_, 0, run_count()); }
 
 }  // namespace weft

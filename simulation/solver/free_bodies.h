@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "runtime/step.h"
+#include "simulation/contact/body_columns.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -20,19 +22,31 @@ public:
     bool reach_into(int first_strip, int end_strip) const;
 
     /// What adds up the lags of a region's strips,
-    /// contacts  [vertices] how many contacts each has: what has any is not free; null: none has
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                            Buffer<int>* contacts);
+    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
     void add_sum_accesses(Step::Adding& task, int first_strip, int end_strip);
     /// and, when all strips have done so, what moves the vertices of a region's strips.
     /// deviations  [vertices] x - x~
     std::vector<Launch> shift(Model& model, Buffer<float4>& deviations);
     void add_shift_accesses(Step::Adding& task);
 
-private:
+    // For sums of more than lags; see the kernels.
     struct Run {
         int body, strip, begin, end;  ///< vertices [begin, end)
     };
+    const Run& run(int r) const { return runs_[static_cast<std::size_t>(r)]; }
+    int run_count() const { return static_cast<int>(runs_.size()); }
+    int most_runs() const { return most_runs_; }  ///< of one body
+    int body_count() const { return body_count_; }
+    int column_count() const;
+    /// Those of strips [first_strip, end_strip).
+    std::pair<int, int> runs_in(int first_strip, int end_strip) const;
+    BodyColumns columns();
+    Launch add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts, int lag_count);
+    /// numbers: [vertices] of each one's shift
+    Launch shift_by(Buffer<float4>& shifts, Buffer<int>& numbers, Model& model,
+                    Buffer<float4>& deviations);
+
+private:
     FreeBodies(const Model& model, const std::vector<int>& bodies, std::vector<Run> runs);
     static std::vector<Run> runs_of(const Model& model, const std::vector<int>& bodies);
     void fill_strips(const Model& model);
@@ -40,7 +54,8 @@ private:
     void fill_bodies();
 
     std::vector<Run> runs_;
-    int most_runs_ = 0;          ///< of one body
+    int most_runs_ = 0;  ///< of one body
+    int body_count_ = 0;
     Buffer<int> strip_runs_;     ///< [strips + 1]
     Buffer<int> strip_columns_;  ///< [strips + 1]
     Buffer<int> rows_;           ///< [2 * columns] see the kernels for these and the following

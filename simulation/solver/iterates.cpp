@@ -17,8 +17,9 @@ void Iterates::cut_pieces(const Model& model) {
     const Strips& strips = model.strips;
     const int count = strips.count();
     piece_begin_ = std::make_unique<Buffer<int>>(
-        "pieces", static_cast<std::size_t>(kPiecesPerStrip * count + 1));
-    int* next = piece_begin_->data();
+        "pieces", static_cast<std::size_t>(2 * kPiecesPerStrip * count + 1));
+    int* const first = piece_begin_->data();
+    int* next = first;
     for (int s = 0; s < count; ++s) {
         const int begin = model.vertices().item(s);
         const int end = model.vertices().item(s + 1);
@@ -29,9 +30,16 @@ void Iterates::cut_pieces(const Model& model) {
         *next++ = std::clamp(first_seam_end, begin, end);
         *next++ = std::clamp(last_seam_begin, std::clamp(first_seam_end, begin, end), end);
     }
-    *next = model.vertex_count();
-    WEFT_ASSERT(std::is_sorted(piece_begin_->data(), next + 1));
-    pieces_ = {piece_begin_.get(), 0, 1, kPiecesPerStrip * count};
+    const int all = model.vertex_count();
+    next = std::transform(first, next, next, [&](int begin) { return all + begin; });
+    *next = 2 * all;
+    WEFT_ASSERT(std::is_sorted(first, next + 1));
+    pieces_ = {piece_begin_.get(), 0, 1, 2 * kPiecesPerStrip * count};
+}
+
+int Iterates::halves(std::size_t buffer) const {
+    const auto all = static_cast<std::size_t>(pieces_.item(pieces_per_half()));
+    return buffers_[buffer].own->count() > all ? 2 : 1;
 }
 
 void Iterates::add_copies(Buffer<float4>& own) {

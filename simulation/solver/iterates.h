@@ -25,9 +25,11 @@ public:
 
     /// What is copied at once: of each strip what its first seam touches, the middle, and what its
     /// last seam touches. So devices that work on the two seams of a strip do not disturb each
-    /// other.
+    /// other. Those of all strips, and once more for the second half of buffers that have one.
     const Segments& pieces() const { return pieces_; }
     static constexpr int kPiecesPerStrip = 3;
+    int pieces_per_half() const { return pieces_.strip_count / 2; }
+    int halves(std::size_t buffer) const;
     /// The pieces with some vertex in [begin, end), and perhaps empty ones beside them.
     std::pair<int, int> pieces_with(int begin, int end) const;
 

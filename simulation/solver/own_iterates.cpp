@@ -77,8 +77,11 @@ public:
             task.iteration = last_iteration_;
             task.region = static_cast<int>(r);
             for (std::size_t c = 0; c < current_.size(); ++c) {
-                bring_pieces(c, Iterates::kPiecesPerStrip * part.begin,
-                             Iterates::kPiecesPerStrip * part.end, 0, task);
+                for (int half = 0; half < solver_.iterates_.halves(c); ++half) {
+                    const int first = half * solver_.iterates_.pieces_per_half();
+                    bring_pieces(c, first + Iterates::kPiecesPerStrip * part.begin,
+                                 first + Iterates::kPiecesPerStrip * part.end, 0, task);
+                }
             }
         }
         step_.seal();

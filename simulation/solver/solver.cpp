@@ -26,14 +26,13 @@ void refuse_contact(const Scene& scene) {
 
 std::string why_no_contact(const Scene& scene) {
     if (!scene.contact) return {};
-    if (scene.solver.method == Method::kNewton) {
-        return "newton does not know [contact] yet; take solver.method = \"vbd\", \"sosd\", "
-               "\"jpgd\" or \"xpbd\"";
-    }
     const bool rubs = scene.contact->friction.value_or(0.0) > 0.0;
-    if (scene.solver.method == Method::kXpbd && rubs) {
-        return "contact.friction is not there yet for xpbd; leave it out, or take "
-               "solver.method = \"vbd\", \"sosd\" or \"jpgd\"";
+    const Method method = scene.solver.method;
+    if (rubs && (method == Method::kXpbd || method == Method::kNewton)) {
+        return fmt::format(
+            "contact.friction is not there yet for {}; leave it out, or take "
+            "solver.method = \"vbd\", \"sosd\" or \"jpgd\"",
+            name_of(method));
     }
     return {};
 }

@@ -21,8 +21,9 @@ public:
     virtual std::vector<BufferStorage*> state() { return {}; }
 
     /// The buffers through which parts tell each other of their iterations: what a device has a
-    /// copy of if it shall have an iterate of its own. Tasks access them by elements, not by
-    /// tables. None: this solver's parts share all.
+    /// copy of if it shall have an iterate of its own. [vertices], or [2 * vertices] for two values
+    /// of each, one half behind the other. Tasks access them by elements, not by tables. None: this
+    /// solver's parts share all.
     virtual std::vector<Buffer<float4>*> iterate() { return {}; }
     /// Contacts between bodies; null: this solver knows none, or the scene has none.
     virtual ContactResponse* contact() { return nullptr; }

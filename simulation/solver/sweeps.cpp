@@ -8,7 +8,6 @@ SweepSolver::SweepSolver(Model& model)
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
-    if (substep_.contact() != nullptr) substep_.contact()->show_start();
     if (substep_.has_free_bodies()) {
         momentum_ = {"momentum", substep_.kind_of_momentum(),
                      substep_.sum_momentum(*model.positions)};
@@ -63,8 +62,7 @@ std::vector<std::string> SweepSolver::kinds() const {
 std::vector<Buffer<float4>*> SweepSolver::iterate() {
     std::vector<Buffer<float4>*> buffers{model_.positions.get()};
     if (model_.obstacles) buffers.push_back(&substep_.targets());
-    if (substep_.contact() == nullptr) return buffers;
-    for (Buffer<float4>& shown : substep_.contact()->snapshots()) buffers.push_back(&shown);
+    if (substep_.contact() != nullptr) buffers.push_back(&substep_.contact()->snapshots());
     return buffers;
 }
 

@@ -59,8 +59,7 @@ public:
 
     std::vector<Buffer<float4>*> iterate() override {
         std::vector<Buffer<float4>*> buffers{model_.positions.get()};
-        if (!contact_) return buffers;
-        for (Buffer<float4>& shown : contact_->snapshots()) buffers.push_back(&shown);
+        if (contact_) buffers.push_back(&contact_->snapshots());
         return buffers;
     }
 

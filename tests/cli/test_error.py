@@ -295,12 +295,14 @@ radius = 0.2
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_contacts_are_in_the_energy(folder, friction):
     """All solvers that can do the scene go to one minimum, and estimates of runs see the same."""
-    text = TOUCHING.replace("[contact]", f"[contact]\nfriction = {friction}") if friction else TOUCHING
+    text = TOUCHING
+    if friction:
+        text = text.replace("[contact]", f"[contact]\nfriction = {friction}")
     (folder / "scene.toml").write_text(text)
-    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--frame", "6",
-                      "--max-iterations", "1000", "--time", "60", cwd=folder)
+    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--frame", "4",
+                      "--max-iterations", "400", "--time", "60", cwd=folder)
     assert study["energies"] == ["inertia", "springs", "contact"] + ["friction"] * (friction > 0)
-    solvers = {"vbd", "sosd", "jpgd"} | ({"xpbd"} if friction == 0.0 else set())
+    solvers = {"vbd", "sosd", "jpgd"} | ({"xpbd", "newton"} if friction == 0.0 else set())
     curves = {key[0]: curve for key, curve in read_curves(folder / "out" / "error.csv").items()}
     assert set(curves) == solvers
     (note,) = [note for note in study["notes"] if "contacts, as they are where it begins" in note]
@@ -309,32 +311,36 @@ def test_contacts_are_in_the_energy(folder, friction):
     for solver, curve in curves.items():
         errors = [float(row["relative_error"]) for row in curve]
         assert errors[0] == 1.0 and min(errors) > -1e-9
-        assert errors[-1] < 1e-4, solver
+        assert errors[-1] < (1e-3 if solver == "xpbd" else 1e-4), solver
         for row in curve[1:]:
             error, estimate = (float(row[name]) for name in ("relative_error",
                                                              "relative_error_estimate"))
-            if error < 1e-3 or row["truncated"] != "0":
+            if error < 1e-3:
                 continue
             assert error / 3 < estimate < 3 * error, (solver, row["iteration"])
             compared += 1
     assert compared > 20
 
 
-def test_planes_that_hold_vertices_are_told(folder):
-    """What planes hold back is no step's fault, and no silence."""
+def test_planes_in_the_way_are_told(folder):
+    """What planes hold back counts as error, and is no silence."""
     text = TOUCHING.replace('translate = [0.01, 0.021, 0.02]', 'translate = [0.01, 0.004, 0.02]')
     (folder / "scene.toml").write_text(text.replace("dt = 0.01", "dt = 0.05"))
-    study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers",
-                      "vbd", "--frame", "1", "--max-iterations", "40", cwd=folder)
+    arguments = ["error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--solvers", "vbd",
+                 "--frame", "0", "--max-iterations", "400"]
+    free = weft_json(*arguments, cwd=folder)["curves"][0]
+    study = weft_json(*arguments, "--planes", cwd=folder)
+    assert free["truncated"] == 0 and free["relative_error"] < 1e-4
+    assert study["curves"][0]["relative_error"] > 10 * free["relative_error"]
     (curve,) = read_curves(folder / "out" / "error.csv").values()
     held = int(curve[-1]["truncated"])
     assert held > 0 and study["curves"][0]["truncated"] == held
-    (note,) = [note for note in study["notes"] if "planes that keep surfaces apart" in note]
+    (note,) = [note for note in study["notes"] if "where these curves end" in note]
     assert f"vbd on cpu/1 (auto): {held}" in note
 
 
 @pytest.mark.parametrize("arguments, parts", [
-    (["--solvers", "vbd,newton"], ["newton does not know [contact]", "vbd"]),
+    (["--solvers", "vbd,newton", "--set", "contact.friction=0.2"], ["friction", "newton", "vbd"]),
     (["--trajectory"], ["--trajectory does not know [contact]"]),
 ])
 def test_what_contact_is_not_known_to(folder, arguments, parts):

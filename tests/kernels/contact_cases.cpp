@@ -272,8 +272,8 @@ void find_triangles_case(KernelCase& c) {
     Table table(c, "vt", c.items, 3);
     c.launch = launch(kernels::find_triangles, c.segments, points, patches.of_item,
                       patches.near.rows, patches.near.counts, patches.near.others,
-                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low, boxes.high,
-                      f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
+                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low,
+                      boxes.high, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
                       table.needs, table.others, c.items, triangles, kHalo, kLeast, kInstance);
 }
 
@@ -298,8 +298,8 @@ void find_vertices_case(KernelCase& c) {
     Table table(c, "tv", c.items, 3);
     c.launch = launch(kernels::find_vertices, c.segments, points, patches.of_item,
                       patches.near.rows, patches.near.counts, patches.near.others,
-                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low, boxes.high,
-                      f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
+                      patches.boxes.low, patches.boxes.high, begin, corners, knots, boxes.low,
+                      boxes.high, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
                       table.needs, table.others, c.items, kHalo, kLeast, kInstance);
 }
 

@@ -2,13 +2,13 @@
 #include <array>
 
 #include "kernels/contact/begin.h"
+#include "kernels/contact/bodies.h"
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
 #include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
-#include "kernels/descent/free_bodies.h"
 #include "kernels/newton/contacts.h"
 #include "kernels/xpbd/contacts.h"
 #include "runtime/row_table.h"
@@ -163,24 +163,23 @@ struct Contacts {
 
 void gather_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
-    auto& even = add_points(c, "even", c.items);
-    auto& odd = add_points(c, "odd", c.items);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
     auto& vertices = add_indices(c, "vertices", c.items, c.items);
     Contacts contacts(c);
     auto& sums = c.add<float>("sums", 9 * c.items);
     for (float& sum : sums.span()) sum = c.random.real(-1.0f, 1.0f);
-    c.launch = launch(kernels::gather_contacts, c.segments, positions, even, odd, vertices,
+    c.launch = launch(kernels::gather_contacts, c.segments, positions, snapshots, vertices,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, sums, c.items, kIteration,
+                      contacts.measures, sums, c.items, c.items, kIteration,
                       c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
 void couple_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     Contacts contacts(c);
-    auto& curvatures = c.add<float>("curvatures", contacts.normals.count());
-    auto& grips = c.add<float>("grips", contacts.normals.count());
+    auto& curvatures = c.add<float>("curvatures", contacts.rows.entries);
+    auto& grips = c.add<float>("grips", contacts.rows.entries);
     c.launch = launch(kernels::couple_contacts, c.segments, positions, contacts.rows.rows,
                       contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
                       contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
@@ -190,8 +189,8 @@ void couple_case(KernelCase& c) {
 void multiply_case(KernelCase& c) {
     auto& directions = add_points(c, "directions", c.items);
     Contacts contacts(c);
-    auto& curvatures = c.add<float>("curvatures", contacts.normals.count());
-    auto& grips = c.add<float>("grips", contacts.normals.count());
+    auto& curvatures = c.add<float>("curvatures", contacts.rows.entries);
+    auto& grips = c.add<float>("grips", contacts.rows.entries);
     for (float& value : curvatures.span()) value = c.random.real(0.0f, 1e4f);
     for (float& value : grips.span()) value = c.random.real(0.0f, 1e3f);
     auto& products = c.add<float>("products", 3 * c.items);
@@ -204,9 +203,9 @@ void multiply_case(KernelCase& c) {
 
 void snapshot_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
-    auto& even = c.add<float4>("even", c.items);
-    auto& odd = c.add<float4>("odd", c.items);
-    c.launch = launch(kernels::take_snapshot, c.segments, positions, even, odd, kIteration, 1);
+    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
+    c.launch =
+        launch(kernels::take_snapshot, c.segments, positions, snapshots, c.items, kIteration, 1);
 }
 
 /// What kernels over the rows of all vertices take; each vertex is a corner of its contacts.
@@ -252,22 +251,20 @@ void measure_case(KernelCase& c) {
 
 void share_case(KernelCase& c) {
     OwnContacts contacts(c);
-    auto& even = c.add<float4>("even", c.items);
-    auto& odd = c.add<float4>("odd", c.items);
+    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
     c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.counts,
-                      even, odd, kIteration, 1);
+                      snapshots, c.items, kIteration, 1);
 }
 
 void project_case(KernelCase& c) {
     OwnContacts contacts(c);
-    auto& even = add_points(c, "even", c.items);
-    auto& odd = add_points(c, "odd", c.items);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
     auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
     for (float& l : multipliers.span()) l = c.random.real(0.0f, 0.1f);
-    c.launch = launch(kernels::project_contacts, c.segments, contacts.positions, even, odd,
+    c.launch = launch(kernels::project_contacts, c.segments, contacts.positions, snapshots,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, multipliers, 1e4f, kIteration);
+                      contacts.measures, multipliers, c.items, 1e4f, kIteration);
 }
 
 /// Lists of random entries: begin [items + 1], list.
@@ -325,15 +322,75 @@ void lags_case(KernelCase& c) {
     auto& members = add_indices(c, "members", entries, c.items);
     auto& shares = c.add<float>("shares", entries);
     for (float& share : shares.span()) share = c.random.real(0.0f, 1.0f);
-    auto& rows = c.add<int>("rows", 2 * c.items);
+    auto& column_rows = c.add<int>("column_rows", 2 * c.items);
     for (int i = 0; i < c.items; ++i) {
-        rows[at(2 * i)] = i;
-        rows[at(2 * i + 1)] = kRows;
+        column_rows[at(2 * i)] = i;
+        column_rows[at(2 * i + 1)] = kRows;
     }
-    auto& contacts = add_indices(c, "contacts", c.items, 2);
-    auto& partials = c.add<float4>("partials", c.items);
-    c.launch = launch(kernels::add_lags_and_contacts, c.segments, positions, targets, members,
-                      shares, rows, contacts, partials);
+    auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
+    auto& leaders = add_indices(c, "leaders", kSubsteps * kBodies, kBodies);
+    Contacts contacts(c);
+    auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
+    c.launch = launch(kernels::add_pushed_lags, c.segments, positions, targets, members, shares,
+                      column_rows, bodies, leaders, contacts.rows.rows, contacts.rows.counts,
+                      contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
+                      contacts.normals, contacts.weights, contacts.measures, partials,
+                      c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f, c.items, kBodies,
+                      kInstance);
+}
+
+void bodies_case(KernelCase& c) {
+    constexpr int kMostRuns = 3;
+    auto& lags = add_points(c, "lags", WEFT_BODY_PARTS * (c.items + kMostRuns));
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = c.add<float>("counts", c.items);
+    for (float& count : counts.span()) count = static_cast<float>(c.random.integer(1, kMostRuns));
+    auto& masses = c.add<float>("masses", c.items);
+    for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
+    auto& shifts = c.add<float4>("shifts", c.items);
+    auto& rests = c.add<float4>("rests", 3 * c.items);
+    c.launch = launch(kernels::solve_bodies, c.segments, lags, first, counts, masses, shifts, rests,
+                      kMostRuns, c.items + kMostRuns, c.items);
+}
+
+/// What solve_bodies leaves: positive masses, and semi-definite blocks; nothing of some bodies.
+Buffer<float4>& add_rests(KernelCase& c) {
+    auto& rests = c.add<float4>("rests", 3 * c.items);
+    const auto items = static_cast<std::size_t>(c.items);
+    for (std::size_t b = 0; b < items; ++b) {
+        if (c.random.integer(0, 3) == 0) continue;
+        const auto along = [&] { return c.random.real(0.2f, 2.0f); };
+        const auto across = [&] { return c.random.real(-0.1f, 0.1f); };
+        rests[b] = c.random.point(0.1f);
+        rests[b].w = along();
+        rests[items + b] = {along(), across(), across(), along()};
+        rests[2 * items + b] = {across(), along(), 0.0f, 0.0f};
+    }
+    return rests;
+}
+
+void groups_case(KernelCase& c) {
+    auto& rests = add_rests(c);
+    auto& firsts = c.add<int>("firsts", kSubsteps * c.items);
+    auto& counts = c.add<int>("counts", kSubsteps * c.items);
+    for (std::size_t b = 0; b < firsts.count(); ++b) {
+        const int place = static_cast<int>(b) % c.items;
+        firsts[b] = c.random.integer(0, place);
+        counts[b] = c.random.integer(0, std::min(5, c.items - firsts[b]));
+    }
+    auto& members = add_indices(c, "members", kSubsteps * c.items, c.items);
+    auto& shifts = c.add<float4>("shifts", c.items);
+    c.launch = launch(kernels::solve_groups, c.segments, rests, firsts, counts, members, shifts,
+                      c.items, kInstance);
+}
+
+void add_groups_case(KernelCase& c) {
+    auto& shifts = add_points(c, "shifts", c.items);
+    auto& rests = add_points(c, "rests", 3 * c.items);
+    auto& group_shifts = add_points(c, "group_shifts", c.items);
+    auto& leaders = add_indices(c, "leaders", kSubsteps * c.items, c.items);
+    c.launch = launch(kernels::add_groups, c.segments, shifts, rests, group_shifts, leaders,
+                      c.items, kInstance);
 }
 
 const bool added =
@@ -341,7 +398,8 @@ const bool added =
     add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
     add_case("truncate_contacts", truncate_case) && add_case("gather_contacts", gather_case) &&
     add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
-    add_case("add_lags_and_contacts", lags_case);
+    add_case("add_pushed_lags", lags_case) && add_case("solve_bodies", bodies_case) &&
+    add_case("solve_groups", groups_case) && add_case("add_groups", add_groups_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&

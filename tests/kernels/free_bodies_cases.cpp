@@ -41,10 +41,13 @@ void lags_case(KernelCase& c) {
 }
 
 void columns_case(KernelCase& c) {
-    auto& partials = add_points(c, "partials", c.items + WEFT_RUN_COLUMNS);
+    constexpr int kParts = 2;
+    const int columns = c.items + WEFT_RUN_COLUMNS;
+    auto& partials = add_points(c, "partials", kParts * columns);
     auto& first = add_indices(c, "first_column", c.items, c.items);
-    auto& lags = c.add<float4>("lags", c.items);
-    c.launch = launch(kernels::add_columns, c.segments, partials, first, lags);
+    auto& lags = c.add<float4>("lags", kParts * c.items);
+    c.launch =
+        launch(kernels::add_columns, c.segments, partials, first, lags, kParts, columns, c.items);
 }
 
 void runs_case(KernelCase& c) {
@@ -61,7 +64,6 @@ void shift_case(KernelCase& c) {
     auto& deviations = add_points(c, "deviations", c.items);
     auto& velocities = add_points(c, "velocities", c.items);
     auto& shifts = add_points(c, "shifts", 4);
-    for (std::size_t k = 0; k < 3; ++k) shifts[k].w = 0.0f;  // the last body touches something
     auto& runs = add_indices(c, "runs", c.items, 4);
     c.launch = launch(kernels::shift_bodies, c.segments, positions, deviations, velocities, shifts,
                       runs, 240.0f);

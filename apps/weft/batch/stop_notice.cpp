@@ -63,8 +63,11 @@ StopNotice::StopNotice() {
     handle(SIGCHLD, note);
 }
 
+/// Once one has come the program is on its way out: further ones of those that batch systems send
+/// several of do not end it before it has said so.
 StopNotice::~StopNotice() {
-    forget();
+    handle_all(first_signal != 0 ? SIG_IGN : SIG_DFL);
+    handle(SIGCHLD, SIG_DFL);
     for (const int end : pipe_ends) ::close(end);
 }
 

@@ -81,7 +81,6 @@ public:
     }
     /// Vertices that contact's planes took back.
     int truncated() const { return truncated_; }
-    std::vector<char> held() { return simulation_.held_at(simulation_.time()); }
     std::vector<float> positions() const { return simulation_.positions(); }
 
 private:
@@ -137,20 +136,19 @@ private:
         const double energy = problem_.energy(problem_.from_scene_order(positions));
         // More iterations never take less: what is left of the noise is no news.
         const double before = measured_.points.empty() ? 0.0 : measured_.points.back().time;
-        const double estimate = estimate_of(positions, step.held());
+        const double estimate = estimate_of(positions);
         measured_.add(
             {iterations, std::max(before, time.median()), energy, 0.0, estimate, step.truncated()},
             std::move(positions));
     }
 
     /// Runs estimate E's error.
-    double estimate_of(const std::vector<float>& positions, std::vector<char> held) {
+    double estimate_of(const std::vector<float>& positions) {
         if (!problem_.end.empty()) return std::numeric_limits<double>::quiet_NaN();
         const State& start = problem_.start;
         const double time = problem_.first_substep * problem_.model.h;
         return estimate_
-            .of({start.positions, start.velocities, positions, time, std::move(held),
-                 problem_.contacts})
+            .of({start.positions, start.velocities, positions, time, {}, problem_.contacts})
             .value_or(std::numeric_limits<double>::quiet_NaN());
     }
 

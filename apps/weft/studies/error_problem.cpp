@@ -84,6 +84,7 @@ Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int 
     run.solver = solver;
     Scene scene = with_substeps(read_scene(run.scene, run.overrides()));
     if (!options.obstacles) scene.obstacles.clear();
+    if (scene.contact) scene.contact->planes = options.planes || options.obstacles;
     scene.dt /= scene.substeps;
     scene.substeps = 1;
     scene.solver.iterations = iterations;

@@ -19,8 +19,8 @@ struct State {
 /// The state at the start of `frame`, from the whole scene with all that it has.
 State state_at(const ErrorOptions& options, const Scene& scene, int frame);
 
-/// The scene of the step alone: one substep, obstacles only if they are asked for, and no guard,
-/// since what solvers pass through on their way is to be seen. Throws UserError.
+/// The scene of the step alone: one substep, obstacles and planes only if they are asked for, and
+/// no guard, since what solvers pass through on their way is to be seen. Throws UserError.
 Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations);
 
 /// What touches in the step, as every solver finds it where the step begins: corners in scene

@@ -18,7 +18,7 @@ std::string goal_text(const ErrorCurve& curve, double goal) {
     return fmt::format("{:.3f} ms / {}", 1e3 * point->time, point->iteration);
 }
 
-/// With what the curves say: planes hold vertices that cannot get to E* then.
+/// With what the curves say: where planes are in the way, E* may be out of reach.
 std::vector<std::string> notes_of(const ErrorStudy& study) {
     std::vector<std::string> held;
     for (const ErrorCurve& curve : study.curves) {
@@ -29,10 +29,11 @@ std::vector<std::string> notes_of(const ErrorStudy& study) {
     }
     std::vector<std::string> notes = study.notes;
     if (held.empty()) return notes;
-    notes.push_back(
-        fmt::format("the planes that keep surfaces apart are no part of E; where these curves end "
-                    "they hold vertices, of {}: {}; what they hold back counts as error",
-                    study.vertices, fmt::join(held, ", ")));
+    notes.push_back(fmt::format(
+        "the planes that keep surfaces apart are no part of E; where these curves end "
+        "vertices have gone farther than the nearest of theirs is away, of {}: {}; what "
+        "planes hold back counts as error",
+        study.vertices, fmt::join(held, ", ")));
     return notes;
 }
 

@@ -98,7 +98,7 @@ void look_below(ErrorStudy& study, ErrorProblem& problem, const MeasuredCurve& m
     if (std::ranges::find(study.notes, note) == study.notes.end()) study.notes.push_back(note);
 }
 
-void describe_contact(ErrorStudy& study, const ErrorProblem& problem) {
+void describe_contact(ErrorStudy& study, const ErrorOptions& options, const ErrorProblem& problem) {
     const bool rubs = problem.potential->rubs();
     study.energies.emplace_back("contact");
     if (rubs) study.energies.emplace_back("friction");
@@ -106,6 +106,10 @@ void describe_contact(ErrorStudy& study, const ErrorProblem& problem) {
         "the step has {} contacts, as they are where it begins{}",
         problem.potential->contacts().size(),
         rubs ? "; friction goes by what presses them together at the reference's end" : ""));
+    if (options.planes) return;
+    study.notes.emplace_back(
+        "the planes that keep surfaces apart are no part of E, since they are inequalities; all "
+        "solvers and the reference do this step without them (runs have them; --planes)");
 }
 
 /// What E is made of, and what of the scene is no part of it.
@@ -125,7 +129,7 @@ void describe(ErrorStudy& study, const ErrorOptions& options, const Scene& scene
     for (const auto& family : model.families) {
         for (const std::string& part : family->parts()) study.energies.push_back(part);
     }
-    if (scene.contact) describe_contact(study, problem);
+    if (scene.contact) describe_contact(study, options, problem);
     if (!scene.obstacles.empty()) {
         study.notes.emplace_back(
             "obstacles are no part of E, since contact is an inequality; all solvers and the "

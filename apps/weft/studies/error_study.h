@@ -20,6 +20,7 @@ struct ErrorOptions {
     int max_iterations = 1000;
     /// They stay in the step, and errors are distances from where the first solver ends.
     bool obstacles = false;
+    bool planes = false;    ///< of contacts: they stay in the step, and hold back
     bool as_sweep = false;  ///< nothing is measured: a sweep is made that does
 
     // For whole runs.

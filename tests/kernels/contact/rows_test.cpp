@@ -56,8 +56,7 @@ public:
           weights_(table_.add_column<float4>("weights")),
           measures_(table_.add_column<float4>("measures")),
           multipliers_(table_.add_column<float>("multipliers")),
-          even_("even", kVertices),
-          odd_("odd", kVertices) {
+          snapshots_("snapshots", 2 * kVertices) {
         for (int v = 0; v < kVertices; ++v) {
             positions[at(v)] = random_.point(0.04f);
             positions[at(v)].w = is_free(v) ? random_.real(0.5f, 2.0f) : 0.0f;
@@ -91,9 +90,9 @@ public:
         for (int v = 0; v < kVertices; ++v) vertices[at(v)] = v;
         Buffer<float> sums("sums", 9 * kVertices);
         const Launch gather = launch(kernels::gather_contacts, Segments{}, positions, positions,
-                                     positions, vertices, table_.rows(), table_.counts(), *corners_[0],
+                                     vertices, table_.rows(), table_.counts(), *corners_[0],
                                      *corners_[1], *corners_[2], *corners_[3], normals_, weights_,
-                                     measures_, sums, kVertices, kIteration, 0.0f, 1.0f);
+                                     measures_, sums, kVertices, 0, kIteration, 0.0f, 1.0f);
         run_on_host(gather, gather.kernel->scalar, 0, kVertices);
         std::vector<Vec3> gradient;
         for (std::size_t v = 0; v < kVertices; ++v) {
@@ -105,12 +104,12 @@ public:
     /// One iteration of XPBD without any elements.
     void project(int iteration) {
         const Launch share = launch(kernels::share_masses, Segments{}, positions, table_.counts(),
-                                    even_, odd_, kIteration, 0);
+                                    snapshots_, kVertices, kIteration, 0);
         run_on_host(share, share.kernel->scalar, 0, kVertices, 0, iteration);
         const Launch push =
-            launch(kernels::project_contacts, Segments{}, positions, even_, odd_, table_.rows(),
+            launch(kernels::project_contacts, Segments{}, positions, snapshots_, table_.rows(),
                    table_.counts(), *corners_[0], *corners_[1], *corners_[2], *corners_[3],
-                   normals_, weights_, measures_, multipliers_,
+                   normals_, weights_, measures_, multipliers_, kVertices,
                    static_cast<float>(kInverseH2), kIteration);
         run_on_host(push, push.kernel->scalar, 0, kVertices, 0, iteration);
     }
@@ -183,7 +182,7 @@ private:
     std::array<Buffer<int>*, 4> corners_;
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float>& multipliers_;
-    Buffer<float4> even_, odd_;
+    Buffer<float4> snapshots_;
 };
 
 TEST(ContactRows, EachContactHasItsEnergyOnce) {

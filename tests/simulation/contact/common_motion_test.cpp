@@ -150,5 +150,21 @@ TEST(CommonMotion, WhatIsUnforeseenRunsAgain) {
     EXPECT_GE(run.unforeseen, 1);
 }
 
+TEST(BodyGroups, AreListedFromTheirFirstBodyOn) {
+    BodyGroups groups(2, {{0}, {2}, {1, 3}, {4}});
+    groups.place(0, {0, 1, 2, 2, 4});
+    groups.place(1, {0, 1, 0, 3, 4});
+    const auto list = [](const Buffer<int>& b) {
+        return std::vector<int>(b.span().begin(), b.span().end());
+    };
+    EXPECT_EQ(list(groups.leaders), (std::vector{0, 1, 1, 3, 0, 0, 2, 3})) << "3 and 1 are one";
+    EXPECT_EQ(list(groups.counts), (std::vector{1, 2, 0, 1, 2, 0, 1, 1}));
+    EXPECT_EQ(list(groups.members), (std::vector{0, 1, 2, 3, 0, 1, 2, 3}));
+    for (const int leader : {0, 1, 3, 4, 6, 7}) {
+        const int first = groups.firsts[static_cast<std::size_t>(leader)];
+        EXPECT_EQ(groups.members[static_cast<std::size_t>(leader / 4 * 4 + first)], leader % 4);
+    }
+}
+
 }  // namespace
 }  // namespace weft::test

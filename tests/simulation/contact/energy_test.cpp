@@ -153,19 +153,23 @@ TEST_P(ContactEnergyOf, ShorterStepsStoreMore) {
     EXPECT_TRUE(run.troubles().empty());
 }
 
-TEST(Contact, NewtonSaysWhichSolversKnowIt) {
+TEST(Contact, FrictionSaysWhichSolversKnowIt) {
     Scene scene = parse_scene(kOverATriangle, "test.toml");
-    scene.solver.method = Method::kNewton;
-    try {
-        ManualRun run(scene);
-        FAIL() << "it runs";
-    } catch (const UserError& error) {
-        EXPECT_NE(std::string(error.what()).find("\"xpbd\""), std::string::npos) << error.what();
+    scene.contact->friction = 0.3;
+    for (const Method method : {Method::kXpbd, Method::kNewton}) {
+        scene.solver.method = method;
+        try {
+            ManualRun run(scene);
+            FAIL() << "it runs";
+        } catch (const UserError& error) {
+            EXPECT_NE(std::string(error.what()).find("\"vbd\""), std::string::npos) << error.what();
+        }
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ContactEnergyOf,
-                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd,
+                                         Method::kNewton),
                          [](const auto& given) { return std::string(name_of(given.param)); });
 
 }  // namespace

@@ -48,9 +48,7 @@ PairOracle::PairOracle(const ContactMesh& mesh, const Surface& surface,
 
 template <class A, class B>
 bool PairOracle::share_a_knot(const A& a, const B& b) const {
-    const auto knot = [&](int v) {
-        return mesh_.mesh.knots[index(surface_.vertices[index(v)])];
-    };
+    const auto knot = [&](int v) { return mesh_.mesh.knots[index(surface_.vertices[index(v)])]; };
     return std::ranges::any_of(
         a, [&](int v) { return std::ranges::find(b, knot(v), knot) != b.end(); });
 }

@@ -105,6 +105,14 @@ TEST(StartContacts, PassOverWhatIsTiedTogetherInOnePlace) {
         return "[[attachment]]\na = \"a\"\nb = \"b\"\n" + at + "\nstiffness = 1.0\n";
     };
     expect_silence(hinged + tie("edges = [\"z-\"]"));
+    // But not whole triangles: edges cross between the ties.
+    const std::string upon = sheet("a", "") + sheet("b", "") + tie("edges = [\"z-\"]");
+    EXPECT_EQ(told_of(upon).error, "") << "tied along an edge alone";
+    const std::string everywhere =
+        sheet("a", "") + sheet("b", "") + tie("box = [[-9, -9, -9], [9, 9, 9]]");
+    EXPECT_NE(told_of(everywhere).error.find("triangles lie upon what their corners are tied to"),
+              std::string::npos)
+        << told_of(everywhere).error;
     // What is tied at a distance still touches, and crosses.
     const std::string cross = sheet("a", "", "[2, 2]") + sheet("b", kUpright, "[2, 2]");
     EXPECT_EQ(told_of(cross + tie("vertices = [0, 1, 2, 3]")).error, told_of(cross).error);

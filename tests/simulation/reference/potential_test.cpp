@@ -55,7 +55,10 @@ std::vector<FrozenContact> any_contacts(const std::vector<Vec3>& x) {
     for (int i = 0; i < 40; ++i) {
         FrozenContact c{{i % count, (i + 9) % count, (i + 20) % count, (i + 31) % count},
                         {1.0, -0.2, -0.3 - 0.01 * i, -0.5 + 0.01 * i},
-                        normalized(Vec3{1.0, 0.1 * i - 2.0, 0.3})};
+                        normalized(Vec3{1.0, 0.1 * i - 2.0, 0.3}),
+                        0.0,
+                        0.0,
+                        {}};
         const Vec3 way = c.way(x);
         const double ratio = ranges[static_cast<std::size_t>(i) % ranges.size()];
         if (c.gap(way) * ratio < 0.0) c.normal = -c.normal;

@@ -164,8 +164,7 @@ TEST_P(Async, ItsMapsHold) {
     for (const char* settings :
          {"", "dropping=on", "window=3,settle=0", "window=4,settle=0", "window=4,wait=0.2",
           "order=within,wait=0.1,settle=0", "order=across,window=3,settle=0"}) {
-        AsyncIterates solver(model, make_solver(model), 3,
-                             parse_async_settings(allowed(settings)));
+        AsyncIterates solver(model, make_solver(model), 3, parse_async_settings(allowed(settings)));
         for (const Division& division : {in_two(), in_three()}) {
             const auto problem = solver.problem_of(division.partition());
             const auto map = scheduler::make_exchange_map(problem);
@@ -482,7 +481,7 @@ TEST(AsyncRuns, WithContactTheLastIterationIsInStep) {
     const int last = scene.solver.iterations - 1;
     int asynchronous = 0;
     for (const auto& task : problem.tasks) {
-        if (task.iteration == last) EXPECT_TRUE(task.synchronous);
+        EXPECT_TRUE(task.synchronous || task.iteration < last);
         asynchronous += task.synchronous ? 0 : 1;
     }
     EXPECT_GT(asynchronous, 0);

@@ -102,28 +102,6 @@ Scene scene_of(std::string text, Method method) {
     return scene;
 }
 
-struct Momentum {
-    Vec3 place;     ///< mean, weighted with the masses [m]
-    Vec3 velocity;  ///< likewise [m/s]
-};
-
-/// Of the vertices [first, first + count) in scene order.
-Momentum momentum_of(const ManualRun& run, int first, int count) {
-    Momentum sum;
-    double mass = 0.0;
-    const auto x = positions(run);
-    const auto u = velocities(run);
-    for (int v = first; v < first + count; ++v) {
-        const auto rank =
-            static_cast<std::size_t>(run.model->strips.rank[static_cast<std::size_t>(v)]);
-        const double m = run.model->masses[rank];
-        sum.place = sum.place + m * at(x, v);
-        sum.velocity = sum.velocity + m * at(u, v);
-        mass += m;
-    }
-    return {(1.0 / mass) * sum.place, (1.0 / mass) * sum.velocity};
-}
-
 class FreeBody : public testing::TestWithParam<Method> {};
 
 TEST_P(FreeBody, FallsAsFreelyAfterAnyNumberOfIterations) {

@@ -60,6 +60,26 @@ Fall free_fall(const Scene& scene, double damping, int frames) {
     return fall;
 }
 
+Momentum momentum_of(const ManualRun& run, int first, int count) {
+    Momentum sum;
+    const auto x = positions(run);
+    const auto u = velocities(run);
+    for (int v = first; v < first + count; ++v) {
+        const auto rank =
+            static_cast<std::size_t>(run.model->strips.rank[static_cast<std::size_t>(v)]);
+        const double m = run.model->masses[rank];
+        sum.place = sum.place + m * at(x, v);
+        sum.velocity = sum.velocity + m * at(u, v);
+        sum.mass += m;
+    }
+    return {sum.mass, (1.0 / sum.mass) * sum.place, (1.0 / sum.mass) * sum.velocity};
+}
+
+Momentum momentum_of(const ManualRun& run, int body) {
+    const BodyRange& range = run.model->bodies[static_cast<std::size_t>(body)];
+    return momentum_of(run, range.first_vertex, range.vertex_count);
+}
+
 double run_without_momentum(ManualRun& run, int frames, double tolerance) {
     double largest = 0.0;
     for (int frame = 0; frame < frames; ++frame) {

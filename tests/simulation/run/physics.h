@@ -35,6 +35,17 @@ struct Fall {
 };
 Fall free_fall(const Scene& scene, double damping, int frames);
 
+/// Of some vertices, weighted with their masses.
+struct Momentum {
+    double mass = 0.0;  ///< [kg]
+    Vec3 place;         ///< mean [m]
+    Vec3 velocity;      ///< mean [m/s]
+};
+/// Of the vertices [first, first + count) in scene order.
+Momentum momentum_of(const ManualRun& run, int first, int count);
+/// Of a body of the model.
+Momentum momentum_of(const ManualRun& run, int body);
+
 /// Runs from a state out of rest, and expects neither momentum nor angular momentum, in parts of
 /// what all momenta together are like. Returns the latter [kg m/s].
 double run_without_momentum(ManualRun& run, int frames, double tolerance);

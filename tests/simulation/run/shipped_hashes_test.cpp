@@ -49,8 +49,10 @@ const Shipped kShipped[] = {
     {"flag", Method::kSosd, "765b74329ea8364bdb67ddf157f77df9"},
     {"flag", Method::kJpgd, "da8ba60a351c86fe30fa8f883f039033"},
     {"flag", Method::kNewton, "89305729d3acc468a894008f8bea6a0c"},
-    {"pillows", Method::kVbd, "79a8856fbc0fc2af32a8a33645a17c38"},
-    {"funnel", Method::kVbd, "30211327bbfc6880d1dbe6c796a4a9d5"},
+    {"pillows", Method::kVbd, "17159a1745e2e8fd7d3139f8b4aaad34"},
+    {"funnel", Method::kVbd, "ebaece19a9a7c2414c29e9e72cd22983"},
+    {"dress", Method::kVbd, "aed730e4cd49f72f9ba1735200ae064b"},
+    {"letters", Method::kVbd, "e4478f7938420ee70d80c9b11cb53506"},
 };
 
 std::string hash_after_two_frames(const Scene& scene) {

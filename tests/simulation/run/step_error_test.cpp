@@ -14,6 +14,7 @@
 #include "simulation/solver/solver.h"
 #include "tests/simulation/reference/problems.h"
 #include "tests/simulation/run/physics.h"
+#include "tests/simulation/run/touching_sheets.h"
 
 namespace weft::test {
 namespace {
@@ -81,21 +82,7 @@ substeps = 4
 gravity = [3.0, -9.0, 0.0]
 [contact]
 thickness = 0.02
-)" + friction + R"(
-[[cloth]]
-name = "low"
-grid = { size = [0.5, 0.5], resolution = [9, 9] }
-density = 0.2
-stretch = { stiffness = 300.0 }
-pins = { edges = ["x-", "x+"] }
-[[cloth]]
-name = "high"
-grid = { size = [0.3, 0.3], resolution = [7, 7] }
-rotate = [0, 1, 0, 20]
-translate = [0.01, 0.016, 0.02]
-density = 0.2
-stretch = { stiffness = 300.0 }
-)",
+)" + friction + kTouchingSheets,
                        "test.toml");
 }
 const std::string kRubbing = "friction = 0.4\n";

@@ -8,6 +8,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/touching_sheets.h"
 
 namespace weft::test {
 namespace {
@@ -69,26 +70,14 @@ substeps = 4
 [contact]
 thickness = 0.02
 friction = 0.3
-[[cloth]]
-name = "low"
-grid = { size = [0.5, 0.5], resolution = [9, 9] }
-density = 0.2
-stretch = { stiffness = 300.0 }
-pins = { edges = ["x-", "x+"] }
-[[cloth]]
-name = "high"
-grid = { size = [0.3, 0.3], resolution = [7, 7] }
-rotate = [0, 1, 0, 20]
-translate = [0.01, 0.016, 0.02]
-density = 0.2
-stretch = { stiffness = 300.0 }
-[solver]
-)" + solver,
+)" + kTouchingSheets + "[solver]\n" +
+                           solver,
                        "test.toml");
 }
 
 TEST(Tolerance, IsKeptInContact) {
-    const Scene scene = touching(kReachable);
+    Scene scene = touching(kReachable);
+    scene.frames = 8;  // behind them, planes stop what swings back
     Simulation simulation = simulation_of(scene);
     int estimates = 0;
     std::uint32_t fewest = 256;
@@ -101,7 +90,7 @@ TEST(Tolerance, IsKeptInContact) {
         EXPECT_LE(frame.relative_error, 1e-2) << frame.frame;
         ++estimates;
     }
-    EXPECT_GE(estimates, 3);
+    EXPECT_EQ(estimates, 3);
     EXPECT_LT(fewest, 256U);
     EXPECT_GT(most_touching, 50U);
     EXPECT_TRUE(simulation.troubles().empty());
@@ -115,7 +104,7 @@ TEST(Tolerance, SaysWhatWouldReachItInContact) {
     const std::string& what = simulation.troubles().front().what;
     EXPECT_TRUE(std::regex_search(what, std::regex("[0-9]+ substeps of [0-9]+ iterations")))
         << what;
-    EXPECT_EQ(what.find("by newton"), std::string::npos) << "which knows no contact: " << what;
+    EXPECT_EQ(what.find("by newton"), std::string::npos) << "which knows no friction: " << what;
 }
 
 std::string hash_on(const std::string& devices) {

@@ -171,7 +171,7 @@ membrane = { young = 1.0e6, poisson = 0.3, thickness = 1.0e-3 }
 pins = { edges = ["x-"] }
 )");
     const Strained run = strained_by(scene);
-    const bool gives_way = GetParam() == Method::kVbd;
+    const bool gives_way = GetParam() != Method::kNewton;
     EXPECT_EQ(run.most > 0.1, gives_way) << run.most;
     EXPECT_EQ(run.is_told, gives_way) << run.most;
 }
@@ -218,7 +218,7 @@ faces = ["x-"]
 faces = ["x+"]
 motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
 )");
-    const bool gives_way = GetParam() == Method::kVbd || GetParam() == Method::kJpgd;
+    const bool gives_way = GetParam() != Method::kXpbd && GetParam() != Method::kNewton;
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.3, gives_way) << run.most;
     EXPECT_EQ(run.most > 0.2, gives_way) << run.most;

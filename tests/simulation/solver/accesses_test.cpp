@@ -122,7 +122,8 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Accesses,
                          name_of_case);
 INSTANTIATE_TEST_SUITE_P(InContact, Accesses,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
-                                                          Method::kSosd, Method::kJpgd),
+                                                          Method::kSosd, Method::kJpgd,
+                                                          Method::kNewton),
                                           testing::Values(&kTouching)),
                          name_of_case);
 

@@ -108,7 +108,9 @@ void expect_descent(Method method, const std::string& friction, double lasts) {
     const double whole = minimum.start_energy - minimum.energy;
     ASSERT_GT(whole, 0.1 * minimum.start_energy) << "there is something to do";
     double last = 1e30;
+    const bool is_newton = method == Method::kNewton;
     for (const int iterations : {1, 4, 16, 64, 256, 1024}) {
+        if (is_newton && iterations > 64) break;
         Step step(method, iterations, friction);
         step.run();
         const double error = (potential.energy(step.positions()) - minimum.energy) / whole;
@@ -138,7 +140,8 @@ TEST_P(ContactDescent, FindsTheContactsThatAllFind) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ContactDescent,
-                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd,
+                                         Method::kNewton),
                          [](const auto& given) { return std::string(name_of(given.param)); });
 
 class RubbingDescent : public testing::TestWithParam<Method> {};
@@ -154,7 +157,8 @@ TEST(RubbingDescent, FrictionMatters) {
     const Minimum slippery = minimise(potential, potential.predicted());
     const Minimum rough = find_equilibrium(potential, potential.predicted());
     const double whole = rough.start_energy - rough.energy;
-    EXPECT_GT(potential.energy(slippery.x) - rough.energy, 1e-3 * whole);
+    EXPECT_GT(potential.energy(slippery.x) - rough.energy, 1e-4 * whole)
+        << "far more than how near methods have to come to it";
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, RubbingDescent,

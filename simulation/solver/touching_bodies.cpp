@@ -1,0 +1,126 @@
+#include "simulation/solver/touching_bodies.h"
+
+#include <algorithm>
+
+#include "kernels/contact/bodies.h"
+
+namespace weft {
+
+namespace {
+
+constexpr int kParts = WEFT_BODY_PARTS;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The scene's bodies of which each free body has vertices.
+std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bodies) {
+    std::vector<std::vector<int>> parts(at(bodies.body_count()));
+    int body = -1;
+    for (int r = 0; r < bodies.run_count(); ++r) {
+        const FreeBodies::Run& run = bodies.run(r);
+        if (r == 0 || run.body != bodies.run(r - 1).body) ++body;
+        for (int v = run.begin; v < run.end; ++v) {
+            const int vertex = model.scene_vertex(v);
+            const auto is_in = [&](const BodyRange& b) {
+                return vertex >= b.first_vertex && vertex < b.first_vertex + b.vertex_count;
+            };
+            const auto part = std::ranges::find_if(model.bodies, is_in) - model.bodies.begin();
+            parts[at(body)].push_back(static_cast<int>(part));
+        }
+    }
+    for (std::vector<int>& list : parts) {
+        std::ranges::sort(list);
+        list.erase(std::ranges::unique(list).begin(), list.end());
+    }
+    return parts;
+}
+
+}  // namespace
+
+TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact,
+                               int kind)
+    : model_(model),
+      bodies_(bodies),
+      contact_(contact),
+      rows_(contact.rows()),
+      groups_(contact.motion().group(parts_of(model, bodies))),
+      lag_count_(bodies.run_count() + bodies.most_runs()),
+      partials_("touching.partials", at(kParts * bodies.column_count())),
+      lags_("touching.lags", at(kParts * lag_count_)),
+      body_of_("touching.body_of", at(model.vertex_count())),
+      first_run_("touching.first_run", at(bodies.body_count())),
+      counts_("touching.counts", first_run_.count()),
+      masses_("touching.masses", first_run_.count()),
+      rests_("touching.rests", 3 * first_run_.count()),
+      group_shifts_("touching.group_shifts", first_run_.count()),
+      shifts_("touching.shifts", first_run_.count() + 1),
+      begin_("touching.begin", model.strips.begin.size()) {
+    number_bodies(model);
+    std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
+    steps_ = {"bodies", kind, solve()};
+}
+
+void TouchingBodies::number_bodies(const Model& model) {
+    std::fill(body_of_.data(), body_of_.data() + model.vertex_count(), body_count());
+    std::vector<double> masses(masses_.count());
+    int body = -1;
+    for (int r = 0; r < bodies_.run_count(); ++r) {
+        const FreeBodies::Run& run = bodies_.run(r);
+        if (r == 0 || run.body != bodies_.run(r - 1).body) first_run_[at(++body)] = r;
+        counts_[at(body)] += 1.0f;
+        for (int v = run.begin; v < run.end; ++v) {
+            body_of_[at(v)] = body;
+            masses[at(body)] += model.masses[at(v)];
+        }
+    }
+    std::ranges::transform(masses, masses_.data(), [](double m) { return static_cast<float>(m); });
+}
+
+std::vector<Launch> TouchingBodies::solve() {
+    const Segments all{&begin_, 0, 1, model_.strips.count()};
+    return {launch(kernels::solve_bodies, all, lags_, first_run_, counts_, masses_, shifts_, rests_,
+                   bodies_.most_runs(), lag_count_, body_count()),
+            launch(kernels::solve_groups, all, rests_, groups_.firsts, groups_.counts,
+                   groups_.members, group_shifts_, body_count(), kInstance),
+            launch(kernels::add_groups, all, shifts_, rests_, group_shifts_, groups_.leaders,
+                   body_count(), kInstance)};
+}
+
+std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets) {
+    return {contact_.add_lags(bodies_.columns(), positions, targets, body_of_, groups_, partials_),
+            bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
+}
+
+/// Contacts reach anywhere.
+void TouchingBodies::add_sum_accesses(Step::Adding& task, const Region& region,
+                                      Buffer<float4>& positions) {
+    const int first = model_.vertices().item(region.begin);
+    const int last = model_.vertices().item(region.end);
+    task.reads(positions, 0, model_.vertex_count());
+    rows_.add_reads(task, region.begin, region.end, first, last);
+    const auto [first_run, end_run] = bodies_.runs_in(region.begin, region.end);
+    for (int part = 0; part < kParts; ++part) {
+        task.updates(lags_, part * lag_count_ + first_run, part * lag_count_ + end_run);
+    }
+}
+
+void TouchingBodies::add_steps(Step& step, int iteration) {
+    auto task = step.add(steps_, iteration, 0, 1, 0);
+    for (int part = 0; part < kParts; ++part) {
+        const int first = part * lag_count_;
+        task.reads(lags_, first, first + bodies_.run_count());
+    }
+    task.updates(shifts_, 0, body_count())
+        .updates(rests_, 0, 3 * body_count())
+        .updates(group_shifts_, 0, body_count());
+}
+
+Launch TouchingBodies::shift(Model& model, Buffer<float4>& deviations) {
+    return bodies_.shift_by(shifts_, body_of_, model, deviations);
+}
+
+void TouchingBodies::add_shift_accesses(Step::Adding& task) {
+    task.reads(shifts_, 0, body_count());
+}
+
+}  // namespace weft

@@ -1,0 +1,179 @@
+// Bodies that rest on each other, and bodies that collide: forces, momentum and drift against what
+// mechanics says.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "simulation/contact/response.h"
+#include "simulation/scene/read_scene.h"
+#include "tests/simulation/run/physics.h"
+
+namespace weft::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kCreep = 1e-3;  ///< of what sticks, at the most [m/s]
+
+std::string head(int iterations, const std::string& contact, const std::string& gravity = "") {
+    return fmt::format(R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 10
+{}
+[solver]
+iterations = {}
+[contact]
+thickness = 0.004
+{}
+)",
+                       gravity, iterations, contact);
+}
+
+const std::string kFloor = R"(
+[[cloth]]
+name = "floor"
+grid = { size = [1.2, 0.8], resolution = [2, 2] }
+density = 0.2
+stretch = { stiffness = 20.0 }
+pins = { box = [[-9, -9, -9], [9, 9, 9]] }
+)";
+
+std::string block(const std::string& name, Vec3 place, double density, double young, int turn) {
+    return fmt::format(R"(
+[[solid]]
+name = "{}"
+grid = {{ size = [0.1, 0.1, 0.1], resolution = [4, 4, 4] }}
+rotate = [0, 1, 0, {}]
+translate = [{}, {}, {}]
+density = {}
+young = {}
+poisson = 0.3
+)",
+                       name, turn, place.x, place.y, place.z, density, young);
+}
+
+std::string patch(double stiffness) {
+    return fmt::format(R"(
+[[cloth]]
+name = "patch"
+grid = {{ size = [0.1, 0.1], resolution = [7, 7] }}
+rotate = [0, 1, 0, 13]
+translate = [-0.1, 0.0034, 0.003]
+density = 0.2
+stretch = {{ stiffness = {} }}
+)",
+                       stiffness);
+}
+
+int body_of(const ManualRun& run, int vertex) {
+    int body = 0;
+    while (run.model->bodies[static_cast<std::size_t>(body + 1)].first_vertex <=
+           run.model->scene_vertex(vertex)) {
+        if (++body + 1 == static_cast<int>(run.model->bodies.size())) break;
+    }
+    return body;
+}
+
+/// How contacts with others push a body, at the last substep's end [N].
+Vec3 push_on(ManualRun& run, int body) {
+    const auto x = run.model->positions->span();
+    Vec3 sum;
+    for (const FrozenContact& contact : run.solver->contact()->frozen()) {
+        const double force = contact.force(contact.way(x));
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (body_of(run, contact.corners[k]) != body) continue;
+            sum = sum + force * contact.weights[k] * contact.normal;
+        }
+    }
+    return sum;
+}
+
+class Resting : public EverySolver {};
+
+/// What carries blocks is pushed by their weight, and they creep as what sticks may. (How much each
+/// carries of those above it is another matter: docs/contact.md.)
+TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
+    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "knows no friction: columns slide apart";
+    std::string text = head(8, "friction = 0.3\n") + kFloor;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 place{0.001 * i, 0.0535 + 0.1035 * i, 0.002 * i};
+        text += block(fmt::format("block{}", i), place, 200.0, 2e5, 7 * i);
+    }
+    ManualRun run(scene_of(text));
+    run.run(60);
+    std::vector<Vec3> before;
+    for (int b = 1; b <= 3; ++b) before.push_back(momentum_of(run, b).place);
+    double push = 0.0;
+    double weight = 0.0;
+    run.run(30);
+    for (int b = 1; b <= 3; ++b) {
+        const Momentum now = momentum_of(run, b);
+        weight += now.mass * kGravity;
+        push += push_on(run, b).y;
+        EXPECT_LT(length(now.place - before[static_cast<std::size_t>(b - 1)]), 30.0 / 60.0 * kCreep)
+            << b;
+    }
+    EXPECT_NEAR(push / weight, 1.0, 0.1);
+}
+
+/// Of bodies that are alike. (What planes take back of others is given to nobody.)
+TEST_P(Resting, HeadOnCollisionsKeepMomentum) {
+    for (const int iterations : {2, 8}) {
+        ManualRun run(scene_of(head(iterations, "", "gravity = [0, 0, 0]") +
+                               block("a", {-0.06, 0, 0}, 200.0, 2e5, 0) +
+                               block("b", {0.06, 0.003, 0.002}, 200.0, 2e5, 0)));
+        for (std::size_t v = 0; v < run.model->velocities->count(); ++v) {
+            const bool is_first = body_of(run, static_cast<int>(v)) == 0;
+            (*run.model->velocities)[v].x = is_first ? 1.0f : -1.0f;
+        }
+        run.changed(*run.model->velocities);
+        double most = 0.0;
+        for (int frame = 0; frame < 12; ++frame) {
+            run.run(1);
+            const Momentum a = momentum_of(run, 0);
+            const Momentum b = momentum_of(run, 1);
+            most = std::max(most, 0.5 * length(a.velocity + b.velocity));
+        }
+        const bool is_xpbd = GetParam() == Method::kXpbd;
+        EXPECT_LT(most, is_xpbd ? 0.1 : 1e-3) << iterations << " iterations";
+        EXPECT_LT(momentum_of(run, 0).velocity.x, -0.1) << "they part";
+    }
+}
+
+/// 1 : 1000.
+TEST_P(Resting, LightBlockBearsAHeavyOne) {
+    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "knows no friction: blocks tip over";
+    ManualRun run(scene_of(head(8, "friction = 0.5\n") + kFloor +
+                           block("light", {0, 0.0535, 0}, 2.0, 1e6, 0) +
+                           block("heavy", {0, 0.157, 0}, 2000.0, 1e6, 0)));
+    run.run(30);
+    const Vec3 before = momentum_of(run, 2).place;
+    run.run(20);
+    EXPECT_LT(length(momentum_of(run, 2).place - before), 20.0 / 60.0 * kCreep);
+    EXPECT_GT(momentum_of(run, 2).place.y - momentum_of(run, 1).place.y, 0.1)
+        << "it is not crushed";
+}
+
+/// With WEFT_LONG=1, for 60 s.
+TEST_P(Resting, PatchStaysWhereItIs) {
+    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "knows no friction: what was pushed goes on";
+    const bool is_long = std::getenv("WEFT_LONG") != nullptr;
+    for (const double stiffness : {20.0, 1e4}) {
+        ManualRun run(scene_of(head(8, "friction = 0.3\n") + kFloor + patch(stiffness)));
+        run.run(30);
+        const std::vector<float> before = positions(run);
+        run.run(is_long ? 3600 : 180);
+        EXPECT_LT(difference(before, positions(run)), is_long ? 1e-4 : 5e-6);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Resting,
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
+                         name_of_method);
+
+}  // namespace
+}  // namespace weft::test
