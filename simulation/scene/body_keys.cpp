@@ -10,75 +10,10 @@ namespace weft {
 namespace {
 
 const Range kVertices = between(2, 1e6);
-const Range kTime = between(0.0, 1e9);
 
 const std::vector<std::string> kGridCorners{"x-z-", "x+z-", "x-z+", "x+z+"};
 const std::vector<std::string> kBlockCorners{"x-y-z-", "x+y-z-", "x-y+z-", "x+y+z-",
                                              "x-y-z+", "x+y-z+", "x-y+z+", "x+y+z+"};
-
-const TableKeys& keyframe_table() {
-    static const TableKeys table{{
-        {.name = "time",
-         .help = "time since the start",
-         .unit = "s",
-         .required = true,
-         .range = kTime},
-        {.name = "translate",
-         .forms = {{3}},
-         .help = "displacement from the place at the start",
-         .unit = "m",
-         .fallback = std::vector<double>{0, 0, 0},
-         .range = kPlace},
-        {.name = "rotate",
-         .help = "angle about the axis",
-         .unit = "degrees",
-         .fallback = 0.0,
-         .range = between(-1e9, 1e9)},
-        {.name = "axis",
-         .forms = {{3}},
-         .help = "axis of this turn, any length; default: the motion's. Between two axes the turn "
-                 "goes the shortest way"},
-    }};
-    return table;
-}
-
-const TableKeys& motion_table() {
-    static const TableKeys table{{
-        {.name = "velocity",
-         .forms = {{3}},
-         .help = "constant velocity; or use keyframes",
-         .unit = "m/s",
-         .range = between(-1e4, 1e4)},
-        {.name = "angular_velocity",
-         .help = "constant rate of turn; or use keyframes",
-         .unit = "degrees/s",
-         .range = between(-1e6, 1e6)},
-        {.name = "axis",
-         .forms = {{3}},
-         .help = "axis of the turn; any length",
-         .fallback = std::vector<double>{0, 1, 0}},
-        {.name = "center",
-         .forms = {{3}},
-         .help = "point that the axis goes through, at the start; default: the obstacle's own "
-                 "centre, for pins the origin",
-         .unit = "m",
-         .range = kPlace},
-        {.name = "keyframes",
-         .type = Type::kTable,
-         .forms = {{kAny}},
-         .help = "by rising time; linear between, held before the first and after the last",
-         .table = &keyframe_table()},
-        {.name = "frames",
-         .type = Type::kText,
-         .help = "of a mesh obstacle, instead of all else: OBJ files of the same vertices, as in "
-                 "body_*.obj, relative to the scene file; the first is the start, linear between"},
-        {.name = "frame_time",
-         .help = "time between two of these files; default: one frame of the scene",
-         .unit = "s",
-         .range = positive_up_to(1e6)},
-    }};
-    return table;
-}
 
 const TableKeys& grid_table() {
     static const TableKeys table{{
@@ -157,7 +92,10 @@ const TableKeys& copies_table() {
          .unit = "m",
          .fallback = std::vector<double>{0, 0, 0},
          .range = kPlace},
-        rotation_key(),
+        {.name = "rotate",
+         .forms = {{4}, {kAny, 4}},
+         .help = "[axis x, axis y, axis z, degrees]: each is turned so much more than the one "
+                 "before"},
     }};
     return table;
 }
@@ -350,11 +288,6 @@ const Key& poisson_key() {
         .required = true,
         .range = {.low = -1.0, .high = 0.5, .low_excluded = true, .high_excluded = true}};
     return key;
-}
-
-Key motion_key(std::string help) {
-    return {
-        .name = "motion", .type = Type::kTable, .help = std::move(help), .table = &motion_table()};
 }
 
 std::vector<Key> mesh_obstacle_keys() {

@@ -271,10 +271,9 @@ SeamSide read_seam_side(const Node& table, const Scene& scene) {
 
 /// Puts a body where its copy number n is.
 void move_on(const Node& copies, int n, Transform& transform) {
-    for (int k = 0; k < n; ++k) {
-        for (const Rotation& r : rotation_values(copies, "rotate"))
-            transform.rotations.push_back(r);
-    }
+    const std::vector<Rotation> turns = rotation_values(copies, "rotate");
+    if (turns.size() > 1) throw value_error(copies, "rotate", "expected one turn for all copies");
+    for (const Rotation& r : turns) transform.rotations.push_back({r.axis, n * r.degrees});
     transform.translate =
         transform.translate + static_cast<double>(n) * vec3_value(copies, "translate");
 }

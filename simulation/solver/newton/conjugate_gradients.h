@@ -16,7 +16,8 @@ namespace weft {
 /// Solves the linear system of a Newton step by so many steps of preconditioned conjugate
 /// gradients; see kernels/newton/conjugate_gradients.h. What a step does, in tasks over strips:
 ///   correct:  the coarse space's answer to the residuals of all strips, and u = P r
-///   product:  w = A u, with u of neighbouring strips (with contacts: of all); the strip's part of both dot products
+///   product:  w = A u, with u of neighbouring strips (with contacts: of all); the strip's part of
+///             both dot products
 ///   advance:  alpha and beta from those of all strips, and the vectors
 class ConjugateGradients {
 public:

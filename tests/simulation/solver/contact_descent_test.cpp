@@ -13,6 +13,7 @@
 #include "simulation/scene/method.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/touching_sheets.h"
 
 namespace weft::test {
 namespace {
@@ -25,20 +26,7 @@ dt = 0.002
 substeps = 1
 [contact]
 thickness = 0.02
-[[cloth]]
-name = "low"
-grid = { size = [0.5, 0.5], resolution = [9, 9] }
-density = 0.2
-stretch = { stiffness = 300.0 }
-pins = { edges = ["x-", "x+"] }
-[[cloth]]
-name = "high"
-grid = { size = [0.3, 0.3], resolution = [7, 7] }
-rotate = [0, 1, 0, 20]
-translate = [0.01, 0.014, 0.02]
-density = 0.2
-stretch = { stiffness = 300.0 }
-)";
+)" + touching_sheets("0.014");
 
 /// The same, and the upper one slides over the lower one.
 const std::string kRubbing = "friction = 0.4\n";
