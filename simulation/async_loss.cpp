@@ -14,10 +14,12 @@ namespace weft {
 namespace {
 
 /// One substep as a frame, without a guard: what solvers pass through on their way is to be seen.
+/// And without planes, which hold back both ways alike, and are no part of E.
 Scene substep_of(Scene scene) {
     scene.dt /= scene.substeps;
     scene.substeps = 1;
     scene.solver.tolerance = 0.0;
+    if (scene.contact) scene.contact->planes = false;
     scene.guard.max_speed = scene.guard.max_strain = std::numeric_limits<double>::infinity();
     return scene;
 }
@@ -63,6 +65,7 @@ std::optional<double> AsyncLoss::error_after(int iterations, const AsyncSettings
     simulation.advance({.tasks = false});
     SubstepEnds ends = start_;
     ends.reached = simulation.positions();
+    ends.contacts = simulation.contacts();
     ends.held = held_by_obstacles(simulation.model(), ends.time + simulation.model().h);
     return estimate_.of(ends);
 }

@@ -219,17 +219,13 @@ void Simulation::calibrate(Warnings& warnings) {
 bool Simulation::has_async_choice() const {
     const bool is_open = options_.plan == PlanKind::kAuto && !options_.division &&
                          options_.iterates == 1 && options_.on_trouble != OnTrouble::kIgnore;
-    return is_open && run_->division_by_units().devices().size() > 1 && !model_->scene.contact &&
+    return is_open && run_->division_by_units().devices().size() > 1 &&
            !solver_->asynchrony().kinds.empty();
 }
 
 std::string Simulation::why_no_async_choice() const {
     if (solver_->asynchrony().kinds.empty()) {
         return fmt::format("{} has no asynchronous form", name_of(model_->scene.solver.method));
-    }
-    if (model_->scene.contact) {
-        return "with [contact] nobody can say how many iterations more it needs; --plan async "
-               "takes it all the same";
     }
     if (run_->division_by_units().devices().size() < 2) return "one device has nobody to wait for";
     return "it is said who does what";

@@ -259,6 +259,33 @@ def test_machines_that_are_not_there(known, tmp_path):
     assert study["fast_kind"] in ("seams", "strips")
 
 
+TOUCHING = """[scene]
+name = "sheet"
+frames = 6
+dt = 0.02
+substeps = 4
+[contact]
+thickness = 0.02
+""" + "".join(f"""
+[[cloth]]
+name = "{name}"
+grid = {{ size = [0.5, 0.5], resolution = [12, 12] }}
+translate = [{height}, {height}, 0.0]
+density = 0.2
+stretch = {{ stiffness = 300.0 }}
+pins = {{ edges = ["{edge}"] }}
+""" for name, height, edge in [("low", 0.0, "x-"), ("high", 0.016, "z-")])
+
+
+def test_machines_know_contact(tmp_path):
+    """What an asynchronous plan loses where sheets press each other is measured, too."""
+    trace = record(tmp_path, "--device", "cpu/1", "--solver", "vbd", scene=TOUCHING)
+    _, rows = machines(trace, tmp_path / "map")
+    assert {row["async_more_iterations"] for row in rows.values()} != {1.0}
+    for row in rows.values():
+        assert row["single_s"] > 0.0 and row["async_more_iterations"] > 0.5
+
+
 def test_the_map_as_table_and_picture(single, tmp_path):
     result = weft("plan", single, "--frame", 4, "--machines", "--out", tmp_path, "--device-counts",
                   "2", "--waits", "1e-5,1e-4", "--ratios", "1,4,16")

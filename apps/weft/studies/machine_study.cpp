@@ -90,11 +90,6 @@ public:
           quiet_(quiet) {}
 
     MachineStudy study(const MachineGrid& grid) {
-        if (model_.scene.contact) {
-            throw UserError(
-                "--machines: what an asynchronous plan loses is measured by an energy that does "
-                "not know [contact] yet");
-        }
         MachineStudy study{model_.scene.name,
                            frame_.frame,
                            device_.name,

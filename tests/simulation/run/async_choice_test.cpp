@@ -14,6 +14,7 @@
 #include "simulation/simulation.h"
 #include "simulation/solver/async_iterates.h"
 #include "tests/simulation/run/test_scenes.h"
+#include "tests/simulation/run/touching_sheets.h"
 
 namespace weft::test {
 namespace {
@@ -126,6 +127,30 @@ TEST(AsyncLosses, OlderNewsCostMore) {
     EXPECT_GE(*one, 1.0);
     EXPECT_LT(*one, 1.5);
     EXPECT_GE(*three, *one);
+}
+
+/// Two sheets that press each other: contacts are in what is counted as error, with what presses
+/// them at the end; planes, which hold back both ways alike, are not.
+Scene touching(Method method, int iterations) {
+    Scene scene = parse_scene(
+        "[scene]\nframes = 8\ndt = 0.01\nsubsteps = 2\n[contact]\n"
+        "thickness = 0.02\n" +
+            kTouchingSheets,
+        "test.toml");
+    scene.solver.method = method;
+    scene.solver.iterations = iterations;
+    return scene;
+}
+
+TEST(AsyncLosses, ContactsAreCounted) {
+    for (const Method method : {Method::kXpbd, Method::kVbd, Method::kJpgd}) {
+        AsyncLoss loss = loss_of(touching(method, 12));
+        EXPECT_EQ(loss.factor(parse_async_settings("window=1"), 2), 1.0) << name_of(method);
+        const auto more = loss.factor(parse_async_settings("window=3"), 2);
+        ASSERT_TRUE(more) << name_of(method);
+        EXPECT_GT(*more, 1.0) << name_of(method);
+        EXPECT_LT(*more, 2.0) << name_of(method);
+    }
 }
 
 TEST(AsyncLosses, FreeFallTellsNothing) {
