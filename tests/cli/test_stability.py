@@ -41,6 +41,8 @@ def test_what_held_holds(short):
                             ("stiffness", "k = 1e+04 N/m, h = 1.04 ms"),
                             ("mass ratio", "hanging : carrying = 1e+00, h = 4.17 ms"),
                             ("Poisson's ratio", "nu = 0.495, h = 4.17 ms"),
+                            ("contact", "upper : lower = 1e+00, h = 4.17 ms"),
+                            ("touching", "sheets meet at 10 m/s"),
                             ("extreme", "a stiff sheet falls freely for 4 s"),
                             ("extreme", "a sheet of 1000 m")]:
             assert rows[group, case, solver]["verdict"] == "stable", (group, case, solver)

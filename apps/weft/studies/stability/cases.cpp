@@ -3,35 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "apps/weft/studies/stability/case_text.h"
+#include "apps/weft/studies/stability/contact_cases.h"
 
 namespace weft::stability {
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-/// A length of steps, as frames of so many substeps.
-struct Steps {
-    double dt;  ///< [s]
-    int substeps;
-    double length() const { return dt / substeps; }
-};
-constexpr Steps kSteps[] = {{1.0 / 12, 1},  {1.0 / 60, 1},  {1.0 / 60, 4},
-                            {1.0 / 60, 16}, {1.0 / 60, 64}, {1.0 / 60, 167}};
-constexpr Steps kUsual{1.0 / 60, 16};
-
-std::string head(const Steps& steps, double seconds, const std::string& more = "") {
-    return fmt::format("[scene]\nframes = {}\ndt = {:.9g}\nsubsteps = {}\n{}\n",
-                       std::max(1, static_cast<int>(std::lround(seconds / steps.dt))), steps.dt,
-                       steps.substeps, more);
-}
-
-std::string step_text(const Steps& steps) {
-    return fmt::format("h = {:.3g} ms", 1e3 * steps.length());
-}
 
 // ---- maps ----
 
@@ -342,6 +321,8 @@ const char* name_of(Quantity quantity) {
             return "size / size at rest";
         case Quantity::kLost:
             return "energy lost / had";
+        case Quantity::kCrossings:
+            return "crossing triangles";
     }
     return "";
 }
@@ -381,7 +362,8 @@ std::vector<Map> all_maps() {
     return {{"stiffness", "springs of a sheet that is held", "step [ms]", "stiffness [N/m]"},
             {"iterations", "the same, 4.2 ms", "iterations", "stiffness [N/m]"},
             {"mass ratio", "one sheet hangs on another", "step [ms]", "hanging : carrying"},
-            {"Poisson's ratio", "a beam that is held", "step [ms]", "Poisson's ratio"}};
+            {"Poisson's ratio", "a beam that is held", "step [ms]", "Poisson's ratio"},
+            {"contact", "one block lies on another", "step [ms]", "upper : lower"}};
 }
 
 std::vector<Case> all_cases() {
@@ -395,6 +377,7 @@ std::vector<Case> all_cases() {
     add_starts(cases);
     add_impacts(cases);
     add_falls(cases);
+    add_contacts(cases);
     return cases;
 }
 

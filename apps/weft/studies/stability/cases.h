@@ -23,13 +23,14 @@ const char* name_of(Verdict verdict);
 
 /// What is measured at the end of a case's run.
 enum class Quantity {
-    kStrain,  ///< of edges, RMS
-    kWorst,   ///< of the worst edge
-    kFall,    ///< of the centre of mass, in parts of a free fall
-    kRise,    ///< of the centre of mass [m]
-    kDrift,   ///< of the centre of mass sideways, in parts of the size at rest
-    kSize,    ///< diagonal of the box around it, in parts of that at rest
-    kLost,    ///< dissipated, in parts of what there was to be had
+    kStrain,     ///< of edges, RMS
+    kWorst,      ///< of the worst edge
+    kFall,       ///< of the centre of mass, in parts of a free fall
+    kRise,       ///< of the centre of mass [m]
+    kDrift,      ///< of the centre of mass sideways, in parts of the size at rest
+    kSize,       ///< diagonal of the box around it, in parts of that at rest
+    kLost,       ///< dissipated, in parts of what there was to be had
+    kCrossings,  ///< pairs of triangles that go through each other
 };
 
 /// One line of a criterion.

@@ -9,6 +9,7 @@
 #include "runtime/error.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/start_checks.h"
+#include "simulation/start_contacts.h"
 
 namespace weft::stability {
 
@@ -182,6 +183,9 @@ private:
                 return static_cast<double>(diagonal(now)) / size;
             case Quantity::kLost:
                 return had_ > 0.0 ? last_.dissipated / had_ : 0.0;
+            case Quantity::kCrossings:
+                return static_cast<double>(
+                    find_start_contacts(simulation_->model(), 0.0).crossings.size());
         }
         return 0.0;
     }
