@@ -112,14 +112,12 @@ std::optional<BadState> find_beyond_guard(const Model& model, const Strain& stra
 }
 
 std::string vertex_name(const Model& model, int vertex) {
-    const int in_scene = model.scene_vertex(vertex);
+    const SceneVertex in_scene = model.scene_vertex(vertex);
     for (const BodyRange& body : model.bodies) {
-        const int own = in_scene - body.first_vertex;
-        if (own >= 0 && own < body.vertex_count) {
-            return fmt::format("vertex {} of {} '{}'", own, body.kind, body.name);
-        }
+        if (!body.has(in_scene)) continue;
+        return fmt::format("vertex {} of {} '{}'", body.own(in_scene), body.kind, body.name);
     }
-    return fmt::format("vertex {}", in_scene);
+    return fmt::format("vertex {}", index(in_scene));
 }
 
 }  // namespace weft

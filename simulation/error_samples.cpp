@@ -45,7 +45,7 @@ std::vector<char> held_by_obstacles(const Model& model, double time) {
                 if (distance_to_local(obstacle, frame.to_local(x)) > obstacle.thickness + kTouch) {
                     continue;
                 }
-                held[static_cast<std::size_t>(model.scene_vertex(v))] = 1;
+                held[index(model.scene_vertex(v))] = 1;
             }
         });
     }

@@ -26,7 +26,7 @@ Inside find_inside(const Model& model, const BodyRange& body, const Obstacle& ob
     constexpr std::size_t kNamed = 3;
     Inside inside;
     for (int own = 0; own < body.vertex_count; ++own) {
-        const int v = model.strips.rank[static_cast<std::size_t>(body.first_vertex + own)];
+        const int v = model.vertex(body.vertex(own));
         const float4& x = (*model.positions)[static_cast<std::size_t>(v)];
         if (x.w == 0.0f) continue;  // obstacles do not push what is held
         const double depth = -distance_to(obstacle, to_vec3(x), 0.0);

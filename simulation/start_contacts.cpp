@@ -35,7 +35,7 @@ public:
         for (const int knot : knots) ++of_knot[static_cast<std::size_t>(knot)];
         for (std::size_t v = 0; v < positions_.size(); ++v) {
             const float4& x = (*model.positions)[v];
-            const auto s = static_cast<std::size_t>(model.scene_vertex(static_cast<int>(v)));
+            const std::size_t s = index(model.scene_vertex(static_cast<int>(v)));
             positions_[s] = {x.x, x.y, x.z};
             held_[s] = x.w == 0.0f ? 1 : 0;
             knots_[s] = knots[v];

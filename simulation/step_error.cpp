@@ -101,7 +101,7 @@ void StepError::start_at(const SubstepEnds& ends) {
     const double h = model_->h;
     take_contacts(ends.contacts);
     for (std::size_t v = 0; v < reached_.size(); ++v) {
-        const auto own = static_cast<std::size_t>(model_->strips.order[v]);
+        const std::size_t own = index(model_->scene_vertex(static_cast<int>(v)));
         const auto read = [&](const std::vector<float>& xyz) {
             return Vec3{xyz[3 * own], xyz[3 * own + 1], xyz[3 * own + 2]};
         };

@@ -42,8 +42,8 @@ std::vector<int> bodies_of_vertices(const Model& model) {
     std::vector<int> body_of(model.positions->count());
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
         const BodyRange& body = model.bodies[b];
-        for (int v = body.first_vertex; v < body.first_vertex + body.vertex_count; ++v) {
-            body_of[at(model.strips.rank[at(v)])] = static_cast<int>(b);
+        for (int own = 0; own < body.vertex_count; ++own) {
+            body_of[at(model.vertex(body.vertex(own)))] = static_cast<int>(b);
         }
     }
     return body_of;

@@ -40,8 +40,8 @@ std::set<std::pair<int, int>> edges_of(const Model& model) {
     std::set<std::pair<int, int>> edges;
     for (const auto& t : model.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
-            edges.insert(
-                std::minmax(model.strips.rank[at(t[k])], model.strips.rank[at(t[(k + 1) % 3])]));
+            edges.insert(std::minmax(model.vertex(SceneVertex{t[k]}),
+                                     model.vertex(SceneVertex{t[(k + 1) % 3]})));
         }
     }
     return edges;

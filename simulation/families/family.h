@@ -141,11 +141,12 @@ public:
 
     // ---- methods that descend the step's energy ----
 
-    virtual std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const = 0;
+    // What is made of a family launches on its tables, too, where these change.
+    virtual std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) = 0;
     virtual Launch energy_terms(const TermTarget& target) = 0;
     /// How many numbers a block of the Hessian has: 1, 6 or 9 (kernels/newton/blocks.h).
     virtual int block_columns() const { return 9; }
-    virtual std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const = 0;
+    virtual std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) = 0;
     /// Whether elements may be stencils of SOSD; else their vertices belong to other stencils or
     /// are solved one by one.
     virtual bool has_stencils() const { return false; }

@@ -21,7 +21,7 @@ double length_of(const Edge& edge, std::span<const float4> positions) {
 
 /// Elements that share an edge agree on its length, but for the last bits. Which of them is first
 /// depends on the mesh alone.
-Edges::Edges(std::span<const std::unique_ptr<ElementFamily>> families) {
+Edges::Edges(std::span<const Owned<ElementFamily>> families) {
     for (const auto& family : families) family->add_edges(edges_);
     const auto ends = [](const Edge& edge) { return std::minmax(edge.a, edge.b); };
     const auto before = [&](const Edge& a, const Edge& b) { return ends(a) < ends(b); };

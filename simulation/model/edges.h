@@ -1,10 +1,10 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "runtime/owned.h"
 #include "simulation/families/family.h"
 
 namespace weft {
@@ -20,7 +20,7 @@ struct Strain {
 /// strain for all of them: in double precision and one order, so the same for the same bits.
 class Edges {
 public:
-    explicit Edges(std::span<const std::unique_ptr<ElementFamily>> families);
+    explicit Edges(std::span<const Owned<ElementFamily>> families);
 
     /// Of all edges. positions: [vertices] in the new order
     Strain strain(std::span<const float4> positions) const;

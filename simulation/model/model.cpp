@@ -169,7 +169,7 @@ void Model::place(double time) {
             to_float4(scene.gravity_at(time + (substep + 0.5) * h));
     }
     if (moving_pins) moving_pins->place(time, h);
-    for (const auto& family : families) family->place(time, h);
+    for (auto& family : families) family->place(time, h);
     time_ = time;
     if (obstacles) place_obstacles(obstacles->have_width() ? speed_ahead() : 0.0);
 }
@@ -210,7 +210,7 @@ std::vector<BufferStorage*> Model::placed_buffers() {
     std::vector<BufferStorage*> buffers{gravity.get()};
     if (moving_pins) moving_pins->add_placed(buffers);
     if (obstacles) buffers.push_back(&obstacles->placements());
-    for (const auto& family : families) {
+    for (auto& family : families) {
         if (BufferStorage* buffer = family->placed_buffer()) buffers.push_back(buffer);
     }
     return buffers;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "runtime/owned.h"
 #include "simulation/families/family.h"
 #include "simulation/mesh/triangle_mesh.h"
 #include "simulation/model/edges.h"
@@ -25,7 +26,11 @@ public:
 
     int vertex_count() const { return static_cast<int>(strips.order.size()); }
     /// A vertex of the new order in scene order.
-    int scene_vertex(int vertex) const { return strips.order[static_cast<std::size_t>(vertex)]; }
+    SceneVertex scene_vertex(int vertex) const {
+        return SceneVertex{strips.order[static_cast<std::size_t>(vertex)]};
+    }
+    /// The other way.
+    int vertex(SceneVertex vertex) const { return strips.rank[index(vertex)]; }
     /// xyz in scene order, [3 * vertex_count()]. rows  float4 or Vec3 per vertex, in new order
     template <class Rows>
     std::vector<float> in_scene_order(const Rows& rows) const;
@@ -45,11 +50,12 @@ public:
     std::vector<Stencils> stencils() const;
     /// The family of that class; null: the scene has no elements of it.
     template <class Family>
-    Family* find() const {
-        for (const auto& family : families) {
-            if (auto* found = dynamic_cast<Family*>(family.get())) return found;
-        }
-        return nullptr;
+    Family* find() {
+        return find_in<Family>(families);
+    }
+    template <class Family>
+    const Family* find() const {
+        return find_in<const Family>(families);
     }
 
     /// The vertices of each strip, as items.
@@ -65,22 +71,29 @@ public:
 
     // On the devices (new order).
     Strips strips;
-    std::unique_ptr<Buffer<float4>> positions;  ///< xyz [m], w = 1/mass [1/kg], 0 for held vertices
-    std::unique_ptr<Buffer<float4>> previous;   ///< xyz at the substep's start
-    std::unique_ptr<Buffer<float4>> velocities;  ///< xyz [m/s], w = what damping leaves per substep
-    std::unique_ptr<Buffer<float4>> gravity;     ///< [substeps] xyz [m/s^2]
-    std::vector<double> masses;                  ///< [kg]; of held vertices, too
+    Owned<Buffer<float4>> positions;   ///< xyz [m], w = 1/mass [1/kg], 0 for held vertices
+    Owned<Buffer<float4>> previous;    ///< xyz at the substep's start
+    Owned<Buffer<float4>> velocities;  ///< xyz [m/s], w = what damping leaves per substep
+    Owned<Buffer<float4>> gravity;     ///< [substeps] xyz [m/s^2]
+    std::vector<double> masses;        ///< [kg]; of held vertices, too
     bool damped = false;
 
     /// Those that the scene has elements of, in the order of element_families.h.
-    std::vector<std::unique_ptr<ElementFamily>> families;
-    std::unique_ptr<Edges> edges;
-    std::unique_ptr<MovingPins> moving_pins;  ///< null: no pin moves
-    std::unique_ptr<Obstacles> obstacles;     ///< null: none
+    std::vector<Owned<ElementFamily>> families;
+    Owned<Edges> edges;
+    Owned<MovingPins> moving_pins;  ///< null: no pin moves
+    Owned<Obstacles> obstacles;     ///< null: none
 
 private:
     Model(const Scene& scene, Gathered all, Warnings& warnings);
     void make_vertices(const Gathered& all);
+    template <class Family, class Families>
+    static Family* find_in(Families& families) {
+        for (auto& family : families) {
+            if (auto* found = dynamic_cast<Family*>(family.get())) return found;
+        }
+        return nullptr;
+    }
 
     void place_obstacles(double speed);
     double fastest() const;
@@ -89,7 +102,7 @@ private:
     double time_ = 0.0;         ///< start of the frame that place() was for [s]
     double speed_limit_ = 0.0;  ///< that obstacles are placed for [m/s]
     int swept_ = 0;             ///< obstacles, of all its substeps
-    std::unique_ptr<Buffer<int>> strip_begin_;
+    Owned<Buffer<int>> strip_begin_;
     Segments vertices_;
 };
 

@@ -75,7 +75,7 @@ void MovingPins::place_ends(const Group& group, Table& table, double time, doubl
 
 void MovingPins::add_placed(std::vector<BufferStorage*>& buffers) {
     buffers.push_back(&motions_);
-    for (const auto& table : tables_) {
+    for (auto& table : tables_) {
         if (table->ends) buffers.push_back(table->ends.get());
     }
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/launch.h"
+#include "runtime/owned.h"
 #include "simulation/scene/motion.h"
 #include "simulation/topology/strips.h"
 
@@ -46,11 +46,11 @@ private:
         Buffer<int> segment_begin;  ///< [strips + 1]
         Segments segments;
         /// [2 * vertices] where they are at the frame's start and end; null: no frames
-        std::unique_ptr<Buffer<float4>> ends{};
+        Owned<Buffer<float4>> ends{};
     };
     void place_ends(const Group& group, Table& table, double time, double h) const;
     std::vector<Group> groups_;
-    std::vector<std::unique_ptr<Table>> tables_;  ///< [group]
+    std::vector<Owned<Table>> tables_;  ///< [group]
     int substeps_;
     Buffer<float4> motions_;  ///< [substep][group][3 rows]
 };

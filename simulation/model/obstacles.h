@@ -17,6 +17,7 @@ public:
     /// something may get past one in a single substep.
     int place(double time, double h, double vertex_speed);
     Buffer<float4>& placements() { return placements_; }
+    const Buffer<float4>& placements() const { return placements_; }
 
     /// Whether there are any that something could get past: of a plane nothing can.
     bool have_width() const;

@@ -49,7 +49,7 @@ double size_of(const Mat3& block) {
 
 }  // namespace
 
-FineRun::FineRun(const Model& model, int substeps)
+FineRun::FineRun(Model& model, int substeps)
     : model_(model),
       substeps_(substeps),
       h_(model.scene.dt / substeps),
@@ -111,7 +111,7 @@ void FineRun::advance() {
 void FineRun::step(double time) {
     const Vec3 gravity = model_.scene.gravity_at(time + 0.5 * h_);
     if (obstacles_) obstacles_->place(time, h_, 0.0);
-    for (const auto& family : model_.families) family->place(time, h_);
+    for (auto& family : model_.families) family->place(time, h_);
     if (model_.moving_pins) model_.moving_pins->place_at(time + h_, held_);
     add_forces();
     for (std::size_t v = 0; v < x_.size(); ++v) {

@@ -15,7 +15,8 @@ namespace weft {
 class FineRun {
 public:
     /// From the model's positions and velocities, which are at time 0. The model must outlive it.
-    FineRun(const Model& model, int substeps);
+    /// Places its families for each of the run's steps.
+    FineRun(Model& model, int substeps);
 
     /// So many per frame that a step is half as long as the longest stable one, or shorter: at the
     /// start, and as long as nothing gets much stiffer than it is there.
@@ -31,7 +32,7 @@ private:
     void add_forces();
     void push_out_of_obstacles(std::size_t vertex, Vec3 previous);
 
-    const Model& model_;
+    Model& model_;
     const int substeps_;
     const double h_;  ///< [s]
     int frame_ = 0;

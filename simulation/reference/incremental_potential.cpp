@@ -69,7 +69,7 @@ bool take_negative_part(Blocks& blocks, std::size_t corners) {
 
 }  // namespace
 
-IncrementalPotential::IncrementalPotential(const Model& model, double time,
+IncrementalPotential::IncrementalPotential(Model& model, double time,
                                            std::vector<FrozenContact> contacts)
     : families_(model.families), contacts_(std::move(contacts)) {
     const double h = model.h;
@@ -85,7 +85,7 @@ IncrementalPotential::IncrementalPotential(const Model& model, double time,
         predicted_[v] = predicted_[v] + h * (to_vec3((*model.velocities)[v]) + h * gravity);
     }
     if (model.moving_pins) model.moving_pins->place_at(time + h, predicted_);
-    for (const auto& family : families_) family->place(time, h);
+    for (auto& family : model.families) family->place(time, h);
     make_pattern();
 }
 

@@ -26,16 +26,17 @@ namespace weft {
 class IncrementalPotential {
 public:
     /// The step that begins at `time` [s] from the model's positions and velocities, which are read
-    /// now. The model must outlive this object; its elements are read whenever they are needed.
+    /// now. Places the model's families for it (ElementFamily::place). The model must outlive this
+    /// object; its elements are read whenever they are needed.
     /// contacts: that the step begins with
-    IncrementalPotential(const Model& model, double time, std::vector<FrozenContact> contacts = {});
+    IncrementalPotential(Model& model, double time, std::vector<FrozenContact> contacts = {});
 
     /// x~, and the held vertices' places.
     const std::vector<Vec3>& predicted() const { return predicted_; }
     bool is_free(int vertex) const { return inertia_[static_cast<std::size_t>(vertex)] > 0.0; }
     /// m / h^2 [N/m], 0 for held vertices.
     const std::vector<double>& inertia() const { return inertia_; }
-    const std::vector<std::unique_ptr<ElementFamily>>& families() const { return families_; }
+    const std::vector<Owned<ElementFamily>>& families() const { return families_; }
     const std::vector<FrozenContact>& contacts() const { return contacts_; }
     /// Whether there is friction.
     bool rubs() const;
@@ -62,7 +63,7 @@ private:
     /// To the exact one; they are positive semi-definite as they are.
     void add_contacts();
 
-    const std::vector<std::unique_ptr<ElementFamily>>& families_;  ///< the model's
+    const std::vector<Owned<ElementFamily>>& families_;  ///< the model's
     std::vector<FrozenContact> contacts_;
     std::vector<Vec3> predicted_;
     std::vector<double> inertia_;

@@ -2,9 +2,9 @@
 
 namespace weft {
 
-VertexDerivatives::VertexDerivatives(const Model& model, VertexItems& items)
+VertexDerivatives::VertexDerivatives(Model& model, VertexItems& items)
     : items_(items), sums_("derivatives", 9 * static_cast<std::size_t>(items.count())) {
-    for (const auto& family : model.families) families_.push_back(family->make_rows(items));
+    for (auto& family : model.families) families_.push_back(family->make_rows(items));
 }
 
 std::vector<Launch> VertexDerivatives::gather(Phase phase, Buffer<float4>& positions) {

@@ -11,7 +11,7 @@ namespace weft {
 /// Gradient and Hessian block of every vertex, by one launch per family that the model has.
 class VertexDerivatives {
 public:
-    VertexDerivatives(const Model& model, VertexItems& items);
+    VertexDerivatives(Model& model, VertexItems& items);
 
     /// One launch per family, over the items of a phase.
     std::vector<Launch> gather(Phase phase, Buffer<float4>& positions);

@@ -43,7 +43,7 @@ protected:
 private:
     enum Kind { kPredict, kSeams, kStrips, kVelocities, kKinds };
     struct Sweep {
-        Sweep(const Model& model, const VertexLayout& layout)
+        Sweep(Model& model, const VertexLayout& layout)
             : items(layout), derivatives(model, items) {}
         VertexItems items;
         VertexDerivatives derivatives;

@@ -20,10 +20,8 @@ std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bod
         const FreeBodies::Run& run = bodies.run(r);
         if (r == 0 || run.body != bodies.run(r - 1).body) ++body;
         for (int v = run.begin; v < run.end; ++v) {
-            const int vertex = model.scene_vertex(v);
-            const auto is_in = [&](const BodyRange& b) {
-                return vertex >= b.first_vertex && vertex < b.first_vertex + b.vertex_count;
-            };
+            const SceneVertex vertex = model.scene_vertex(v);
+            const auto is_in = [&](const BodyRange& b) { return b.has(vertex); };
             const auto part = std::ranges::find_if(model.bodies, is_in) - model.bodies.begin();
             parts[at(body)].push_back(static_cast<int>(part));
         }

@@ -78,7 +78,7 @@ double distance(const Trajectory& a, const Trajectory& b, std::size_t numbers) {
 
 double distance(const Trajectory& a, const Trajectory& b) { return distance(a, b, a.size()); }
 
-Trajectory fine_run(const Model& model, int substeps, bool quiet) {
+Trajectory fine_run(Model& model, int substeps, bool quiet) {
     FineRun run(model, substeps);
     Progress progress(fmt::format("reference with {} substeps, frame", substeps),
                       model.scene.frames, quiet);
@@ -213,7 +213,7 @@ TrajectoryStudy study_trajectories(const ErrorOptions& options) {
     study.frames = scene.frames;
     study.frame_time = scene.dt;
     Warnings warnings;
-    const Model model(scene, warnings);
+    Model model(scene, warnings);
     study.vertices = model.vertex_count();
     study.reference_substeps = reference_substeps(options, model);
     const Trajectory reference = fine_run(model, study.reference_substeps, options.run.quiet);

@@ -57,7 +57,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BlockRows> CurvedHinges::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> CurvedHinges::make_block_rows(const BlockList& list) {
     if (is_nearly_flat_) return std::make_unique<NearlyFlatBlocks>(*this, list);
     return std::make_unique<CurvedHingeBlocks>(*this, list);
 }

@@ -27,10 +27,10 @@ public:
     double pair_weight(int hinge, int j, int k) const;
 
     Launch project(const ProjectTarget& target) override;
-    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
+    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) override;
     Launch energy_terms(const TermTarget& target) override;
     int block_columns() const override { return is_nearly_flat_ ? 1 : 9; }
-    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
+    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) override;
     double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int hinge, const Vec3* x) const override;
     void gradient(int hinge, const Vec3* x, Vec3* gradient) const override;

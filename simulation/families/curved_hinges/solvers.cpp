@@ -45,7 +45,7 @@ Launch CurvedHinges::project(const ProjectTarget& t) {
                   t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> CurvedHinges::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> CurvedHinges::make_rows(const VertexItems& items) {
     return std::make_unique<CurvedHingeRows>(*this, items);
 }
 

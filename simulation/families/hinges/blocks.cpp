@@ -30,7 +30,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BlockRows> Hinges::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> Hinges::make_block_rows(const BlockList& list) {
     return std::make_unique<HingeBlocks>(*this, list);
 }
 

@@ -117,7 +117,7 @@ Launch Hinges::project(const ProjectTarget& t) {
                   t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> Hinges::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> Hinges::make_rows(const VertexItems& items) {
     return std::make_unique<BendingRows>(*this, items);
 }
 

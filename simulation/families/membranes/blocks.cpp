@@ -4,7 +4,7 @@
 
 namespace weft {
 
-std::unique_ptr<BlockRows> Membranes::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> Membranes::make_block_rows(const BlockList& list) {
     return std::make_unique<ElasticBlocks<Membranes, kernels::couple_membranes_kernel>>(*this,
                                                                                         list);
 }

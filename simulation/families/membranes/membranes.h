@@ -29,9 +29,9 @@ public:
 
     std::vector<std::string> constraints() const override { return {".area", ".shape"}; }
     Launch project(const ProjectTarget& target) override;
-    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
+    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) override;
     Launch energy_terms(const TermTarget& target) override;
-    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
+    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) override;
     bool has_stencils() const override { return true; }
     std::unique_ptr<StencilSolve> make_stencils(const VertexLayout& items,
                                                 const StencilLayout::Family& chosen) const override;

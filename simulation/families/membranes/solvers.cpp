@@ -12,7 +12,7 @@ Launch Membranes::project(const ProjectTarget& t) {
                   count(), t.inverse_h2, t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> Membranes::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> Membranes::make_rows(const VertexItems& items) {
     using Rows = ElasticRows<Membranes, kernels::gather_membranes_kernel,
                              kernels::gather_membrane_gradients_kernel>;
     return std::make_unique<Rows>(*this, items);

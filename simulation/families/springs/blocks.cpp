@@ -28,7 +28,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BlockRows> Springs::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> Springs::make_block_rows(const BlockList& list) {
     return std::make_unique<SpringBlocks>(*this, list);
 }
 

@@ -66,7 +66,7 @@ Launch Springs::project(const ProjectTarget& t) {
                   t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> Springs::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> Springs::make_rows(const VertexItems& items) {
     return std::make_unique<SpringRows>(*this, items);
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 class StitchBlocks final : public BlockRows {
 public:
-    StitchBlocks(const Stitches& stitches, const BlockList& list)
+    StitchBlocks(Stitches& stitches, const BlockList& list)
         : tables_("stitches", stitches.elements(), list),
           material_("stitches.block_material", 3 * tables_.entries()),
           clock_(*stitches.clock) {
@@ -31,7 +31,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BlockRows> Stitches::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> Stitches::make_block_rows(const BlockList& list) {
     return std::make_unique<StitchBlocks>(*this, list);
 }
 

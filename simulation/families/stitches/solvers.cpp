@@ -9,7 +9,7 @@ namespace {
 
 class StitchRows final : public DerivativeRows {
 public:
-    StitchRows(const Stitches& stitches, const VertexItems& items)
+    StitchRows(Stitches& stitches, const VertexItems& items)
         : rows_("stitches", stitches.elements(), items),
           material_("stitches.row_material", 3 * rows_.entries()),
           clock_(*stitches.clock) {
@@ -47,7 +47,7 @@ Launch Stitches::project(const ProjectTarget& t) {
                   t.fresh, kInstance);
 }
 
-std::unique_ptr<DerivativeRows> Stitches::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> Stitches::make_rows(const VertexItems& items) {
     return std::make_unique<StitchRows>(*this, items);
 }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "runtime/owned.h"
 #include "simulation/families/family.h"
 
 namespace weft {
@@ -25,11 +26,11 @@ public:
     double rate(int stitch) const { return column(2, stitch); }
 
     Launch project(const ProjectTarget& target) override;
-    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) const override;
+    std::unique_ptr<DerivativeRows> make_rows(const VertexItems& items) override;
     Launch energy_terms(const TermTarget& target) override;
     int block_columns() const override { return 6; }
     bool brings_together() const override { return true; }
-    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) const override;
+    std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) override;
     void reserve(int substeps) override;
     void place(double time, double h) override;
     BufferStorage* placed_buffer() override { return clock.get(); }
@@ -40,7 +41,7 @@ public:
     void hessian(int stitch, const Vec3* x, Mat3* blocks) const override;
 
     Buffer<float> material;  ///< [3 * count] column-major: start [m], compliance [m/N], rate [1/s]
-    std::unique_ptr<Buffer<float>> clock;  ///< [substeps] time at their ends [s]
+    Owned<Buffer<float>> clock;  ///< [substeps] time at their ends [s]
 
 private:
     double column(int k, int stitch) const {

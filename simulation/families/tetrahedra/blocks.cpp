@@ -4,7 +4,7 @@
 
 namespace weft {
 
-std::unique_ptr<BlockRows> Tetrahedra::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> Tetrahedra::make_block_rows(const BlockList& list) {
     return std::make_unique<ElasticBlocks<Tetrahedra, kernels::couple_tetrahedra_kernel>>(*this,
                                                                                           list);
 }

@@ -12,7 +12,7 @@ Launch Tetrahedra::project(const ProjectTarget& t) {
                   count(), t.inverse_h2, t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> Tetrahedra::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> Tetrahedra::make_rows(const VertexItems& items) {
     using Rows = ElasticRows<Tetrahedra, kernels::gather_tetrahedra_kernel,
                              kernels::gather_tetrahedra_gradients_kernel>;
     return std::make_unique<Rows>(*this, items);

@@ -4,7 +4,7 @@
 
 namespace weft {
 
-std::unique_ptr<BlockRows> WovenCloth::make_block_rows(const BlockList& list) const {
+std::unique_ptr<BlockRows> WovenCloth::make_block_rows(const BlockList& list) {
     return std::make_unique<ElasticBlocks<WovenCloth, kernels::couple_woven_kernel>>(*this, list);
 }
 

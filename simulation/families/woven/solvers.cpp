@@ -12,7 +12,7 @@ Launch WovenCloth::project(const ProjectTarget& t) {
                   *t.multipliers[2], count(), t.inverse_h2, t.fresh);
 }
 
-std::unique_ptr<DerivativeRows> WovenCloth::make_rows(const VertexItems& items) const {
+std::unique_ptr<DerivativeRows> WovenCloth::make_rows(const VertexItems& items) {
     using Rows = ElasticRows<WovenCloth, kernels::gather_woven_kernel,
                              kernels::gather_woven_gradients_kernel>;
     return std::make_unique<Rows>(*this, items);

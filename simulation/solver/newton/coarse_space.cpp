@@ -71,7 +71,7 @@ CoarseSpace::CoarseSpace(Model& model, Aggregates given, const std::vector<Pair>
     fill_pairs(model, pairs);
     fill_members(model);
     fill_places(model);
-    for (const auto& family : model.families) add_family(*family, pairs);
+    for (auto& family : model.families) add_family(*family, pairs);
 }
 
 void CoarseSpace::fill_pairs(const Model& model, const std::vector<Pair>& pairs) {
@@ -136,7 +136,7 @@ void CoarseSpace::fill_places(const Model& model) {
     }
 }
 
-void CoarseSpace::add_family(const ElementFamily& family, const std::vector<Pair>& pairs) {
+void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pairs) {
     const auto& of = aggregates_.of;
     const auto key = [](const Pair& p) { return std::pair(p.a, p.b); };
     BlockList list;

@@ -51,7 +51,7 @@ private:
     void fill_pairs(const Model& model, const std::vector<Pair>& pairs);
     void fill_members(const Model& model);
     void fill_places(const Model& model);
-    void add_family(const ElementFamily& family, const std::vector<Pair>& pairs);
+    void add_family(ElementFamily& family, const std::vector<Pair>& pairs);
     int unknowns() const { return 3 * aggregates_.count(); }
     int inverse_begin(int strip) const { return 3 * unknowns() * aggregates_.per_strip * strip; }
 

@@ -38,12 +38,11 @@ FamilyHessian::Rows FamilyHessian::rows_of(const ElementFamily& family, int vert
     return rows;
 }
 
-FamilyHessian::FamilyHessian(const ElementFamily& family, const VertexItems& items,
-                             const Model& model)
+FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model)
     : FamilyHessian(family, items, model, rows_of(family, model.vertex_count())) {}
 
-FamilyHessian::FamilyHessian(const ElementFamily& family, const VertexItems& items,
-                             const Model& model, const Rows& rows)
+FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
+                             const Rows& rows)
     : vertex_count_(model.vertex_count()),
       columns_(family.block_columns()),
       rows_(family.names().name + ".blocks.rows", items.segment_begin(), lengths_of(rows)),
@@ -107,8 +106,8 @@ void FamilyHessian::add_accesses(Step::Adding& task, int first_strip, int end_st
                 entries_.item(end_strip), writes);
 }
 
-Hessian::Hessian(const Model& model, const VertexItems& items) {
-    for (const auto& family : model.families) {
+Hessian::Hessian(Model& model, const VertexItems& items) {
+    for (auto& family : model.families) {
         families_.push_back(std::make_unique<FamilyHessian>(*family, items, model));
     }
 }

@@ -19,7 +19,7 @@ struct LinearisedAt {
 /// a row of them. See kernels/newton/blocks.h.
 class FamilyHessian {
 public:
-    FamilyHessian(const ElementFamily& family, const VertexItems& items, const Model& model);
+    FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model);
 
     /// Makes the blocks anew.
     Launch couple(const LinearisedAt& where);
@@ -39,7 +39,7 @@ private:
     };
     using Rows = std::vector<std::vector<Neighbour>>;  ///< [vertices]
     static Rows rows_of(const ElementFamily& family, int vertex_count);
-    FamilyHessian(const ElementFamily& family, const VertexItems& items, const Model& model,
+    FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
                   const Rows& rows);
     BlockList place(const Rows& rows, const Strips& strips);
 
@@ -56,7 +56,7 @@ private:
 /// Those of all families.
 class Hessian {
 public:
-    Hessian(const Model& model, const VertexItems& items);
+    Hessian(Model& model, const VertexItems& items);
 
     std::vector<Launch> couple(const LinearisedAt& where);
     std::vector<Launch> sum_rows(Buffer<float>& sums);

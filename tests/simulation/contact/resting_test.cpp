@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -70,12 +71,11 @@ stretch = {{ stiffness = {} }}
 }
 
 int body_of(const ManualRun& run, int vertex) {
-    int body = 0;
-    while (run.model->bodies[static_cast<std::size_t>(body + 1)].first_vertex <=
-           run.model->scene_vertex(vertex)) {
-        if (++body + 1 == static_cast<int>(run.model->bodies.size())) break;
-    }
-    return body;
+    const auto has = [&](const BodyRange& body) {
+        return body.has(run.model->scene_vertex(vertex));
+    };
+    const auto body = std::ranges::find_if(run.model->bodies, has);
+    return static_cast<int>(body - run.model->bodies.begin());
 }
 
 /// How contacts with others push a body, at the last substep's end [N].

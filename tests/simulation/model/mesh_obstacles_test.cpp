@@ -64,7 +64,7 @@ TEST(MeshObstacles, AreVerticesThatNothingMoves) {
     EXPECT_EQ(model.moving_pins, nullptr);
     for (int v = 0; v < model.vertex_count(); ++v) {
         EXPECT_EQ((*model.positions)[static_cast<std::size_t>(v)].w == 0.0f,
-                  model.scene_vertex(v) >= 25);
+                  index(model.scene_vertex(v)) >= 25);
     }
     // Of the sheet alone: its edges are 1/4, and its diagonals longer.
     EXPECT_NEAR(model.scene.contact->thickness, 0.25 * 0.25 * (2.0 + std::sqrt(2.0)) / 3.0, 1e-6);

@@ -23,7 +23,7 @@ double rms(const std::vector<float>& a, const std::vector<float>& b) {
 
 std::vector<float> fine(const Scene& scene, int substeps) {
     Warnings warnings;
-    const Model model(scene, warnings);
+    Model model(scene, warnings);
     FineRun run(model, substeps);
     for (int frame = 0; frame < scene.frames; ++frame) run.advance();
     return run.positions();

@@ -167,7 +167,7 @@ TEST(IncrementalPotential, IsZeroInFreeFall) {
     Scene scene = parse_scene(kPinnedSheet, "test.toml");
     scene.cloths[0].pins.clear();
     Warnings warnings;
-    const Model model(scene, warnings);
+    Model model(scene, warnings);
     for (std::size_t v = 0; v < model.velocities->count(); ++v) {
         (*model.velocities)[v] = to_float4({1.0, 2.0, 3.0});
     }

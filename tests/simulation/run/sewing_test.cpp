@@ -153,7 +153,7 @@ TEST(Stitches, OfLoopsBeginWhereTheyAreNearest) {
 TEST(Stitches, ReferenceKnowsHowFarTheyAreClosed) {
     Warnings warnings;
     const Scene scene = parse_scene(kPanels, "test.toml");
-    const Model model(scene, warnings);
+    Model model(scene, warnings);
     const Stitches& stitches = *model.find<Stitches>();
     for (const double time : {0.0, 0.2, 0.6}) {
         const IncrementalPotential potential(model, time);

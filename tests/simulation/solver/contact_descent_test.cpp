@@ -37,7 +37,7 @@ public:
     Step(Method method, int iterations, const std::string& friction = "")
         : run_(scene_of(method, iterations, friction)) {
         for (std::size_t v = 0; v < run_.model->positions->count(); ++v) {
-            const bool is_high = run_.model->scene_vertex(static_cast<int>(v)) >= 81;
+            const bool is_high = index(run_.model->scene_vertex(static_cast<int>(v))) >= 81;
             if (!is_high) continue;
             (*run_.model->velocities)[v].y = -1.5f;
             if (!friction.empty()) (*run_.model->velocities)[v].x = 0.4f;
@@ -57,11 +57,11 @@ public:
         return x;
     }
     /// By the vertices that meet, in scene order, ascending; and what they say of the gap there.
-    std::map<std::vector<int>, double> gaps() {
-        std::map<std::vector<int>, double> gaps;
+    std::map<std::vector<SceneVertex>, double> gaps() {
+        std::map<std::vector<SceneVertex>, double> gaps;
         const std::vector<Vec3> x = positions();
         for (const FrozenContact& c : contacts()) {
-            std::vector<int> corners;
+            std::vector<SceneVertex> corners;
             for (const int v : c.corners) corners.push_back(run_.model->scene_vertex(v));
             std::ranges::sort(corners);
             gaps[corners] = c.gap(c.way(first_));
