@@ -43,7 +43,7 @@ struct Errors {
 Errors errors_of(const Scene& scene) {
     Warnings warnings;
     Simulation simulation(scene, on("cpu/1"), warnings);
-    const Model model(scene, warnings);
+    Model model(scene, warnings);
     const FrameRecord frame = simulation.advance();
     IncrementalPotential potential(model, 0.0,
                                    with_corners(simulation.contacts(), model.strips.rank));
