@@ -2,11 +2,14 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+
+#include "runtime/error.h"
 
 namespace weft {
 
@@ -32,16 +35,22 @@ std::shared_ptr<void> zeroed_pages(std::size_t bytes) {
     return memory;
 }
 
+/// Items are numbered by ints; a negative count, which becomes a huge one, is not meant.
+std::size_t countable(const std::string& name, std::size_t count) {
+    if (count <= static_cast<std::size_t>(std::numeric_limits<int>::max())) return count;
+    throw Misuse("buffer '" + name + "': it cannot have " + std::to_string(count) + " elements");
+}
+
 }  // namespace
 
 BufferStorage::BufferStorage(std::string name, std::size_t count, std::size_t element_size)
     : name_(std::move(name)),
-      count_(count),
+      count_(countable(name_, count)),
       element_size_(element_size),
       host_(zeroed_pages(bytes())) {}
 
 void BufferStorage::resize(std::size_t count) {
-    count_ = count;
+    count_ = countable(name_, count);
     host_ = zeroed_pages(bytes());
     ++generation_;
 }

@@ -16,6 +16,7 @@ namespace weft {
 /// share the host's memory can use it in place. Device copies belong to the devices.
 class BufferStorage {
 public:
+    /// Throws Misuse for more elements than an int can number.
     BufferStorage(std::string name, std::size_t count, std::size_t element_size);
     ~BufferStorage() { *alive_ = false; }
     BufferStorage(const BufferStorage&) = delete;
@@ -57,7 +58,8 @@ template <class T>
 class Buffer : public BufferStorage {
     static_assert(std::is_same_v<T, float> || std::is_same_v<T, int> ||
                       (std::is_class_v<T> && std::is_trivially_copyable_v<T> &&
-                       alignof(T) <= alignof(float4) && sizeof(T) % sizeof(float) == 0),
+                       (alignof(T) == alignof(float) || alignof(T) == alignof(float4)) &&
+                       sizeof(T) % sizeof(float) == 0),
                   "a buffer holds float, int, float4, or plain structs of these");
 
 public:

@@ -15,6 +15,16 @@ const kernels::KernelInfo* detail::compiled_kernel(const std::string& name) {
     }
 }
 
+std::vector<std::shared_ptr<const bool>> detail::lives_of(const Segments& segments,
+                                                          const std::vector<Argument>& arguments) {
+    std::vector<std::shared_ptr<const bool>> lives;
+    if (segments.begin != nullptr) lives.push_back(segments.begin->alive());
+    for (const Argument& argument : arguments) {
+        if (argument.buffer != nullptr) lives.push_back(argument.buffer->alive());
+    }
+    return lives;
+}
+
 void check_variant(const Launch& launch, int lanes) {
     const kernels::KernelInfo& kernel = *launch.kernel;
     if ((lanes == 1 ? kernel.scalar : kernel.packed) != nullptr) return;

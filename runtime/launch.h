@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "runtime/buffer.h"
@@ -64,6 +66,8 @@ struct Launch {
     const kernels::KernelInfo* kernel = nullptr;
     std::vector<Argument> arguments;
     Segments segments;
+    /// Whether its buffers and its strip table are still there.
+    std::vector<std::shared_ptr<const bool>> alive = {};
 };
 
 /// Throws Misuse where the CPU has no form of the kernel with so many lanes (1 or 8).
@@ -100,6 +104,8 @@ Argument make_argument(Value& value) {
         using Element = std::remove_const_t<std::remove_pointer_t<Parameter>>;
         static_assert(std::is_same_v<V, Buffer<Element>>,
                       "this parameter takes a Buffer of its type");
+        static_assert(!std::is_const_v<Value>,
+                      "a launch takes buffers that are not const, also for what it only reads");
         argument.buffer = &value;
     } else if constexpr (std::is_same_v<V, Instance> || std::is_same_v<V, Iteration>) {
         static_assert(std::is_same_v<Parameter, int>, "instance and iteration are ints");
@@ -120,6 +126,14 @@ std::vector<Argument> make_arguments(std::index_sequence<I...>, Values&... value
     return {make_argument<std::tuple_element_t<I, Parameters>>(values)...};
 }
 
+template <class Value>
+constexpr bool is_temporary_buffer =
+    !std::is_lvalue_reference_v<Value> && std::is_base_of_v<BufferStorage, std::decay_t<Value>>;
+
+/// Of the strip table and of each argument that is a buffer.
+std::vector<std::shared_ptr<const bool>> lives_of(const Segments& segments,
+                                                  const std::vector<Argument>& arguments);
+
 }  // namespace detail
 
 /// Binds a kernel's arguments: launch(kernels::project_springs, segments, positions, ends, ...).
@@ -130,9 +144,13 @@ Launch launch(Kernel, const Segments& segments, Values&&... values) {
     using Parameters = kernels::ParametersOf<Kernel>;
     static_assert(std::tuple_size_v<Parameters> == sizeof...(Values),
                   "one argument per parameter of the kernel");
-    return {detail::compiled_kernel(kernels::name_of_kernel<Kernel>()),
-            detail::make_arguments<Parameters>(std::index_sequence_for<Values...>(), values...),
-            segments};
+    static_assert((!detail::is_temporary_buffer<Values&&> && ...),
+                  "a buffer must outlive what is launched on it: no temporaries");
+    auto arguments =
+        detail::make_arguments<Parameters>(std::index_sequence_for<Values...>(), values...);
+    auto alive = detail::lives_of(segments, arguments);
+    return {detail::compiled_kernel(kernels::name_of_kernel<Kernel>()), std::move(arguments),
+            segments, std::move(alive)};
 }
 
 }  // namespace weft

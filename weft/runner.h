@@ -13,5 +13,6 @@
 //
 // `weft trace gantt heat.h5` draws what happened.
 
+#include "runtime/error.h"
 #include "runtime/planning/plan_kind.h"
 #include "runtime/planning/runner.h"

@@ -9,6 +9,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/planning/planned_executor.h"
 #include "runtime/planning/recorded_plans.h"
+#include "runtime/planning/work_checks.h"
 #include "runtime/trace/host_info.h"
 #include "runtime/trace/trace_writer.h"
 
@@ -64,18 +65,6 @@ DeviceDescription describe_device(const DeviceInfo& info) {
             static_cast<std::uint32_t>(info.team)};
 }
 
-/// What would otherwise fail later, and elsewhere.
-void check_work(Work& work, std::size_t devices) {
-    if (devices == 0) throw Misuse("a runner needs at least one device");
-    if (work.strip_count() < 1) throw Misuse("the work has no strips");
-    const auto kinds = static_cast<int>(work.kinds().size());
-    for (const TaskBody* body : work.bodies()) {
-        if (body->kind >= 0 && body->kind < kinds) continue;
-        throw Misuse("task body '" + body->name + "' is of kind " + std::to_string(body->kind) +
-                     ", and the work names " + std::to_string(kinds) + " kinds");
-    }
-}
-
 }  // namespace
 
 class Runner::Impl {
@@ -84,6 +73,7 @@ public:
         : work_(work), options_(options) {
         check_work(work, devices.size());
         carried_ = carried_by(work);
+        sizes_.emplace(work);
         run_.emplace(work, work.strip_count(), std::move(devices),
                      PlanningOptions{options.plan, std::nullopt, options.cost_file,
                                      options.device_options.strict_math});
@@ -131,6 +121,7 @@ public:
     void finish() {
         if (trace_) trace_->finish(state_hash());
         trace_.reset();
+        is_finished_ = true;
         run_->save_costs(frame_);
     }
 
@@ -180,6 +171,8 @@ private:
             throw Misuse("a frame is at least one instance of the step, not " +
                          std::to_string(instances));
         }
+        if (is_finished_) throw Misuse("the run was finished: there are no frames behind finish()");
+        sizes_->check();
         FrameRecord frame;
         frame.frame = static_cast<std::uint32_t>(frame_);
         frame.substeps = static_cast<std::uint32_t>(instances);
@@ -230,19 +223,20 @@ private:
     Work& work_;
     RunnerOptions options_;
     std::vector<BufferStorage*> carried_;
+    std::optional<KnownSizes> sizes_;
     std::optional<PlannedExecutor> run_;
     std::optional<TraceWriter> trace_;
     std::vector<std::string> warnings_;
     Contents start_;  ///< of what is carried, when the frame at hand began
     int frame_ = 0;
+    bool is_finished_ = false;
 };
 
 Runner::Runner(Work& work, const RunnerOptions& options)
-    : Runner(work, open_devices(options.devices, options.device_options), options) {}
+    : Runner(work, Devices{open_devices(options.devices, options.device_options)}, options) {}
 
-Runner::Runner(Work& work, std::vector<std::unique_ptr<Device>> devices,
-               const RunnerOptions& options)
-    : impl_(std::make_unique<Impl>(work, std::move(devices), options)) {}
+Runner::Runner(Work& work, Devices devices, const RunnerOptions& options)
+    : impl_(std::make_unique<Impl>(work, std::move(devices.list), options)) {}
 
 Runner::~Runner() = default;
 

@@ -24,6 +24,13 @@ struct RunnerOptions {
     std::string name = "run";              ///< for the trace
 };
 
+/// Devices that the caller has opened, or made. A type of its own, so that two options in braces
+/// are never taken for a list of devices.
+struct Devices {
+    Devices(std::vector<std::unique_ptr<Device>> opened) : list(std::move(opened)) {}
+    std::vector<std::unique_ptr<Device>> list;
+};
+
 /// Runs work on devices, frame by frame: plans each frame from costs that it learns while running,
 /// executes it, and writes a trace. Results do not depend on devices or plans. If a device fails,
 /// the frame is done again from its start on the others.
@@ -36,22 +43,24 @@ struct RunnerOptions {
 /// those that the work carries are current then; wrote() tells that the host has written into one.
 class Runner {
 public:
-    /// Throws UserError for devices that cannot be had, Misuse for work that makes no step.
+    /// Throws UserError for devices that cannot be had, Misuse for work that makes no step, whose
+    /// tasks do not say what their kernels read and write, or whose buffers are gone.
     explicit Runner(Work& work, const RunnerOptions& options = {});
-    /// On devices that the caller has opened, or made; options.devices is not used.
-    Runner(Work& work, std::vector<std::unique_ptr<Device>> devices,
-           const RunnerOptions& options = {});
+    /// options.devices is not used.
+    Runner(Work& work, Devices devices, const RunnerOptions& options = {});
     ~Runner();
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
 
     /// Runs the step so many times in a row, by one plan. Instances are numbered from 0. Gives how
-    /// it was planned and how it went. Throws Misuse for fewer than one, RunError if the last
-    /// device is lost.
+    /// long it was planned to take, and took; with options.trace also each task (plan, executions),
+    /// which replay() needs. Throws Misuse for fewer than one, behind finish(), and if a buffer was
+    /// resized; RunError if the last device is lost.
     FrameRecord advance(int instances);
-    /// Runs a recorded frame again: every task on the recorded device, in the recorded order.
-    /// Nothing is planned or learnt. run, frame: of a TraceReader. Throws UserError if the frame is
-    /// of other work.
+    /// Runs a recorded frame again: every task on the recorded device, in the recorded order. Where
+    /// the runner has fewer devices than the trace, they do the others' tasks: the same bits.
+    /// Nothing is planned, learnt or traced. run, frame: of a TraceReader (run(), frame(i), which
+    /// has the plan; frames() has not). Throws UserError if the frame is of other work.
     void replay(const RunDescription& run, const FrameRecord& frame);
 
     /// To be called after the host has written into a buffer.

@@ -60,6 +60,19 @@ StripWork::Stage& StripWork::Stage::updates(BufferStorage& buffer, const Segment
     return *this;
 }
 
+/// Strips of a stage run at the same time, so none may read what another one writes.
+void StripWork::check_neighbours(const Description& stage) {
+    for (const Part& read : stage.parts) {
+        const bool far = !read.writes && (read.reach > 0 || (read.whole && read.per_instance == 0));
+        const auto is_same = [&](const Part& p) { return p.writes && p.buffer == read.buffer; };
+        if (!far || std::ranges::none_of(stage.parts, is_same)) continue;
+        throw Misuse("stage '" + stage.body.name + "' reads other strips of '" +
+                     read.buffer->name() +
+                     "', which it writes itself: let it write another buffer, and a second stage "
+                     "take that back");
+    }
+}
+
 std::vector<const TaskBody*> StripWork::bodies() const {
     std::vector<const TaskBody*> list;
     for (const Description& stage : stages_) list.push_back(&stage.body);
@@ -105,6 +118,7 @@ Step StripWork::make_step(const Partition& partition) {
     Step step;
     const int reach = std::max(largest_reach(), 1);
     for (const Description& stage : stages_) {
+        check_neighbours(stage);
         for (const Region& region : regions_of(partition)) {
             const int near_end =
                 region.cut_before ? std::min(region.begin + reach, region.end) : region.begin;
@@ -137,6 +151,7 @@ int strips_of(const Task& task) {
 
 StepWork::StepWork(const Step& step) : tasks_(step.tasks()), limits_(step.instance_limits()) {
     if (tasks_.empty()) throw Misuse("the step has no tasks");
+    if (!step.sealed()) throw Misuse("the step is not sealed: call seal() behind its last task");
     strip_count_ = kLeastStrips;
     for (Task& task : tasks_) {
         task.region = 0;

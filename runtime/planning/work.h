@@ -29,7 +29,8 @@ public:
 ///         .updates(fresh, rows);
 ///
 /// What a stage writes belongs to its own strips, and a launch must be able to run on all strips at
-/// the same time: a stage reads no neighbour's data that it writes itself.
+/// the same time: a stage reads no neighbour's data that it writes itself (Misuse). A stage says
+/// every buffer that its kernels get, or a Runner refuses the work.
 class StripWork final : public Work {
 public:
     explicit StripWork(int strip_count);
@@ -40,7 +41,8 @@ public:
         Stage(StripWork& work, std::size_t number) : work_(work), number_(number) {}
         /// Each task reads the items of its strips, and of so many more on either side.
         Stage& reads(BufferStorage& buffer, const Segments& strips, int reach = 0);
-        /// Each task reads all of it.
+        /// Each task reads all of it. Of a buffer that no stage writes; for others there is
+        /// `reach`, which may be as far as there are strips.
         Stage& reads(BufferStorage& buffer);
         /// The same, but it has rows for each instance of the step within a frame, and a task reads
         /// those of its own: a frame of more instances than there are rows is refused.
@@ -78,6 +80,7 @@ private:
         std::deque<Part> parts;  // a deque: accesses point to their strips
     };
     void add_task(Step& step, const Description& stage, int begin, int end, int region) const;
+    static void check_neighbours(const Description& stage);
     void check(const Segments& strips, const std::string& stage) const;
     int largest_reach() const;
 
@@ -89,8 +92,8 @@ private:
 /// devices should be several tasks.
 class StepWork final : public Work {
 public:
-    /// The step is copied; its bodies and buffers must outlive the work. Throws Misuse for a step
-    /// without tasks.
+    /// The step is copied; its bodies and buffers must outlive the work. What its tasks have as
+    /// regions does not matter. Throws Misuse for a step without tasks, or one that is not sealed.
     explicit StepWork(const Step& step);
 
     int strip_count() const override { return strip_count_; }

@@ -263,6 +263,103 @@ TEST(Misuse, WorkWithoutStagesOrStrips) {
     expect_message([] { StepWork{Step{}}; }, {"no tasks"});
 }
 
+TEST(Misuse, AStepThatIsNotSealedAsWork) {
+    OwnWork own;
+    Step step;
+    step.add(*own.work.bodies().front(), 0, 0, 1, 0).updates(own.next, own.strips);
+    expect_message([&] { StepWork{step}; }, {"not sealed"});
+}
+
+/// What a runner says of a stage with these accesses.
+std::string runner_on(const std::function<void(OwnWork&, StripWork::Stage)>& describe) {
+    OwnWork own;
+    StripWork work(OwnWork::kStrips);
+    describe(own, work.add("there", own.spread(own.now, own.next)));
+    return message_of([&] { Runner(work, {.devices = "cpu/1"}); });
+}
+
+TEST(Misuse, AStageThatDoesNotSayWhatItsKernelsUse) {
+    using Stage = StripWork::Stage;
+    const std::string all = runner_on([](OwnWork& own, Stage stage) {
+        stage.reads(own.now, own.strips, 1).reads(own.losses).updates(own.next, own.strips);
+    });
+    EXPECT_EQ(all, "");
+    const std::string written = runner_on([](OwnWork& own, Stage stage) {
+        stage.reads(own.now, own.strips, 1).reads(own.losses).reads(own.next, own.strips);
+    });
+    EXPECT_NE(written.find("'spread' writes 'next'"), std::string::npos) << written;
+    EXPECT_NE(written.find(".updates() is missing"), std::string::npos) << written;
+    const std::string read = runner_on([](OwnWork& own, Stage stage) {
+        stage.reads(own.now, own.strips, 1).updates(own.next, own.strips);
+    });
+    EXPECT_NE(read.find("'spread' reads 'losses'"), std::string::npos) << read;
+    const std::string none = runner_on([](OwnWork&, Stage) {});
+    EXPECT_NE(none.find("the task does not say so"), std::string::npos) << none;
+}
+
+TEST(Misuse, AStageThatReadsWhatItsNeighboursWrite) {
+    const std::string told = runner_on([](OwnWork& own, StripWork::Stage stage) {
+        stage.reads(own.now, own.strips, 1).reads(own.losses);
+        stage.reads(own.next, own.strips, 1).updates(own.next, own.strips);
+    });
+    EXPECT_NE(told.find("reads other strips of 'next'"), std::string::npos) << told;
+}
+
+TEST(Misuse, BuffersAndStripTablesThatAreGoneBeforeTheRunner) {
+    OwnWork own;
+    StripWork on_buffer(OwnWork::kStrips), on_strips(OwnWork::kStrips);
+    {
+        Buffer<own::Cell> gone("gone", OwnWork::kCells);
+        on_buffer.add("there", own.spread(own.now, gone));
+        Buffer<int> begin("begin", OwnWork::kStrips + 1);
+        const Segments strips = even_strips(begin, OwnWork::kCells);
+        on_strips.add("there", launch(own::spread, strips, own.now, own.next, own.losses,
+                                      OwnWork::kCells, 0.2f, OwnWork::kZones, kInstance));
+    }
+    for (StripWork* work : {&on_buffer, &on_strips}) {
+        expect_message([&] { Runner(*work, {.devices = "cpu/1"}); },
+                       {"'there'", "'spread'", "is gone"});
+    }
+}
+
+TEST(Misuse, StripTablesThatAreNone) {
+    const auto message = [](const std::function<void(OwnWork&)>& spoil) {
+        OwnWork own;
+        spoil(own);
+        return message_of([&] { Runner(own.work, {.devices = "cpu/1"}); });
+    };
+    EXPECT_NE(message([](OwnWork& own) { own.begin[3] = 5; }).find("value 3 is 5"),
+              std::string::npos);
+    EXPECT_NE(message([](OwnWork& own) { own.begin.resize(5); }).find("13 values, and it has 5"),
+              std::string::npos);
+    EXPECT_NE(message([](OwnWork& own) {
+                  for (int& value : own.begin.span()) value = 0;
+              }).find("no strip has an item"),
+              std::string::npos);
+}
+
+TEST(Misuse, ABufferOfMoreThanCanBeNumbered) {
+    expect_message([] { Buffer<float>("many", static_cast<std::size_t>(-1)); }, {"'many'"});
+    Buffer<float> some("some", 4);
+    expect_message([&] { some.resize(std::size_t{1} << 40); }, {"'some'", "1099511627776"});
+    EXPECT_EQ(some.count(), 4U);
+}
+
+TEST(Misuse, ABufferThatIsResizedUnderARunner) {
+    OwnWork own;
+    Runner runner(own.work, {.devices = "cpu/1"});
+    runner.advance(1);
+    own.now.resize(50);
+    expect_message([&] { runner.advance(1); }, {"'now'", "resized"});
+}
+
+TEST(Misuse, FramesBehindTheEnd) {
+    OwnWork own;
+    Runner runner(own.work, {.devices = "cpu/1", .name = "two options in braces"});
+    runner.finish();
+    expect_message([&] { runner.advance(1); }, {"finished"});
+}
+
 TEST(Misuse, AStageOverOtherStripsThanTheWorks) {
     OwnWork own;
     StripWork work(OwnWork::kStrips + 1);
@@ -302,7 +399,10 @@ TEST(Misuse, AWorkWhoseStepDoesNotFitItsPartition) {
         std::vector<std::string> kinds() const override { return own_.work.kinds(); }
         Step make_step(const Partition&) override {
             Step step;
-            step.add(*bodies().front(), 0, 0, 1, 5).updates(own_.next, own_.strips);
+            step.add(*bodies().front(), 0, 0, 1, 5)
+                .reads(own_.now, own_.strips)
+                .reads_by_instance(own_.losses, OwnWork::kZones)
+                .updates(own_.next, own_.strips);
             step.seal();
             return step;
         }
