@@ -25,10 +25,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # What is changed, and the programs that have to notice; the fastest first.
 GROUPS = {
     "scheduler": ("scheduler/*.cpp",
-                  ["task_graph", "cost_model", "plan_adaptations", "planners", "plan_allocations"]),
+                  ["trials", "task_graph", "cost_model", "plan_adaptations", "exchange_map",
+                   "planners", "plan_allocations"]),
     "topology": ("simulation/topology/*.cpp", ["topology"]),
-    "planning": ("runtime/planning/*.cpp", ["planning"]),
-    "runtime": ("runtime/*.cpp", ["runtime", "executor"]),
+    "planning": ("runtime/planning/*.cpp", ["planning", "library", "async_choice", "device_loss"]),
+    "runtime": ("runtime/*.cpp", ["runtime", "executor", "device_loss", "library"]),
 }
 MEMORY = 4 << 30  # bytes; a loop without an end may ask for all there is
 

@@ -179,6 +179,7 @@ TEST(CostModel, TimesAndItemsOfZeroAreNoTrouble) {
         model.refit();
     }
     EXPECT_EQ(model.predict(0, 0, 10.0), 0.0);
+    EXPECT_EQ(model.fit(0, 0).spread, 0.0);
     EXPECT_NEAR(model.predict(1, 0, 100.0), 2e-3, 1e-9);
     EXPECT_NEAR(model.predict(1, 0, 0.0), 1e-3, 1e-9);
 }
@@ -261,6 +262,22 @@ TEST(PlanChoice, NoiseDoesNotFlipPlans) {
         last = now;
     }
     EXPECT_LE(changes, 2);
+}
+
+TEST(PlanChoice, TiesGoToTheFirst) {
+    PlanChoice choice(3);
+    EXPECT_EQ(choice.choose(std::vector{2.0, 1.0, 1.0}), 1u);
+}
+
+TEST(PlanChoice, IgnoresTimesThatAreNone) {
+    PlanChoice choice(2);
+    for (int frame = 0; frame < 20; ++frame) {
+        choice.measured(0, 0.0, 1.0);
+        choice.measured(0, 1.0, 0.0);
+        choice.measured(1, std::numeric_limits<double>::quiet_NaN(), 1.0);
+    }
+    EXPECT_EQ(choice.correction(0), 1.0);
+    EXPECT_EQ(choice.correction(1), 1.0);
 }
 
 TEST(PlanChoice, ChangesForALastingGain) {

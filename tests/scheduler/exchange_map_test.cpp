@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 #include <stdexcept>
 
@@ -83,6 +84,80 @@ TEST(ExchangeMap, HoldsWhateverThePlan) {
             }
         }
     }
+}
+
+/// Tasks of two devices in turn, one per iteration, which all write the same.
+TEST(ExchangeMap, TasksNeedWhatIsFurtherBackThanTheWindow) {
+    ExchangeProblem problem = families(2, 6);
+    for (ExchangeTask& task : problem.tasks) task.kind = task.device;  // each its own: in turn
+    problem.window = 3;
+    // Task 2 i + d is of iteration i and device d.
+    const auto needed = needed_tasks(problem);
+    EXPECT_EQ(needed[8], (std::vector{1, 3}));      // of iterations 0 and 1 = 4 - 3
+    EXPECT_EQ(needed[11], (std::vector{0, 2, 4}));  // 0, 1 and 2 = 5 - 3
+    EXPECT_EQ(needed[4], std::vector<int>{});
+    problem.iterations_in_turn = true;
+    EXPECT_EQ(needed_tasks(problem)[4], (std::vector{1, 3}));
+}
+
+TEST(ExchangeMap, SynchronousTasksNeedAllAndAreNeededByAll) {
+    ExchangeProblem problem = families(2, 6);
+    problem.window = 6;
+    EXPECT_EQ(needed_tasks(problem)[8], std::vector<int>{});
+    problem.tasks[8].synchronous = true;
+    EXPECT_EQ(needed_tasks(problem)[8], (std::vector{1, 3, 5, 7}));
+    EXPECT_EQ(needed_tasks(problem)[10], std::vector<int>{});  // its own device's
+    EXPECT_EQ(needed_tasks(problem)[11], std::vector<int>{8});
+}
+
+/// FNV-1a over all steps.
+std::uint64_t fingerprint(const ExchangeMap& map, std::uint64_t print) {
+    const auto add = [&](int number) {
+        print = (print ^ static_cast<std::uint32_t>(number)) * 0x100000001b3u;
+    };
+    for (const ExchangeStep& s : map.steps) {
+        for (const int number :
+             {static_cast<int>(s.kind), s.task, s.device, s.cells.begin, s.cells.end, s.from,
+              s.start, s.to, s.from_value, s.start_value, s.to_value}) {
+            add(number);
+        }
+    }
+    add(map.slots);
+    add(map.virtual_starts);
+    return print;
+}
+
+/// Maps define the results of asynchronous runs: where a fingerprint moves, so do their state
+/// hashes, and their traces cannot be replayed any more.
+std::uint64_t fingerprint_of_all(bool by_strips, bool dropping) {
+    std::uint64_t print = 0xcbf29ce484222325u;
+    std::uint32_t random = 1;
+    for (const int devices : {2, 3, 5}) {
+        for (const int window : {2, 3, 5}) {
+            for (const double wait : {0.0, 0.5, 2.0}) {
+                auto problem = by_strips ? strips(devices, 6) : families(devices, 6);
+                problem.window = window;
+                problem.dropping = dropping;
+                problem.wait = wait;
+                problem.most_slots = 64;
+                std::vector<double> durations;
+                for (std::size_t t = 0; t < problem.tasks.size(); ++t) {
+                    random = random * 1664525u + 1013904223u;
+                    durations.push_back(0.25 + (random >> 28) / 8.0);
+                }
+                plan_in_turn(problem, durations);
+                print = fingerprint(make_exchange_map(problem), print);
+            }
+        }
+    }
+    return print;
+}
+
+TEST(ExchangeMap, IsThatOfBefore) {
+    EXPECT_EQ(fingerprint_of_all(false, false), 14020675832138902593u);
+    EXPECT_EQ(fingerprint_of_all(false, true), 16384251003621461721u);
+    EXPECT_EQ(fingerprint_of_all(true, false), 7346584962834759750u);
+    EXPECT_EQ(fingerprint_of_all(true, true), 18030890038418220222u);
 }
 
 TEST(ExchangeMap, AWindowOfOneOnlyCopies) {

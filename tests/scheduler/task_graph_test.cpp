@@ -96,6 +96,10 @@ TEST(TaskGraph, RefusesWhatIsNoGraph) {
               "an edge names task #7, but there are only 1 tasks");
     EXPECT_EQ(error_of([&] { graph.add_edge(0, 0, std::nan("")); }),
               "edge #0 -> #0: data must be a finite number >= 0, not nan");
+    EXPECT_EQ(error_of([&] { graph.set_links(-1.0, 1.0); }),
+              "latency must be a time >= 0, not -1.000000");
+    EXPECT_EQ(error_of([&] { graph.set_links(kCannotRun, 1.0); }),
+              "latency must be a time >= 0, not inf");
     EXPECT_EQ(error_of([&] { graph.set_links(0.0, 0.0); }), "bandwidth must be > 0, not 0.000000");
     graph.add_edge(0, 0, 1.0);
     EXPECT_EQ(error_of([&] { graph.seal(); }), "the tasks form a cycle: #0 -> #0");

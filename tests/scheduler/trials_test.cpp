@@ -61,6 +61,8 @@ TEST(Trials, AreJudgedByTheMiddleOfTheLaterFrames) {
     EXPECT_FALSE(run(lucky, 20, {1.0, 1.2, 0.5, 1.2}).won);
     Trials disturbed(2, {.start_frames = 10.0});
     EXPECT_TRUE(run(disturbed, 20, {1.0, 0.9, 1.3, 0.9}).won);
+    Trials longer(2, {.start_frames = 10.0}, {.frames = 6});
+    EXPECT_FALSE(run(longer, 20, {1.0, 0.9, 1.2, 0.9, 1.2, 1.2}).won);
 }
 
 TEST(Trials, CostNoMoreThanTheirShareOfTheTime) {
