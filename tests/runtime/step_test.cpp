@@ -209,7 +209,7 @@ TEST(Step, DependenciesMakeExactlyTheRequiredOrderAndNoneIsSuperfluous) {
         std::mt19937 random(seed);
         Accesses a;
         // Now and then more than a word has bits for.
-        const int tasks = 1 + static_cast<int>(random() % (seed % 30 == 0 ? 60 : 14));
+        const int tasks = 1 + static_cast<int>(random() % (seed % 30 == 0 ? 100 : 14));
         for (int t = 0; t < tasks; ++t) {
             auto task = a.add();
             for (unsigned n = random() % 4; n > 0; --n) {

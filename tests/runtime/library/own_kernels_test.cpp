@@ -111,6 +111,24 @@ TEST(OwnDevices, MayBeLost) {
     }
 }
 
+/// A launch alone takes its turns with nobody.
+TEST(OwnKernels, LaunchesThatTakeTurnsDoAllColours) {
+    OwnWork own, other;
+    Buffer<int> begin("colours", 3);
+    begin[1] = OwnWork::kCells / 2;
+    begin[2] = OwnWork::kCells;
+    own.strips = other.strips = {&begin, 0, 2, 1};
+    const TaskBody turns{"turns", 0, {own.spread(own.now, own.next)}, 1};
+    const TaskBody plain{"plain", 0, {other.spread(other.now, other.next)}};
+    run_on_host(turns, 0);
+    run_on_host(plain, 0);
+    for (std::size_t c = 0; c < OwnWork::kCells; ++c) {
+        ASSERT_EQ(own.next[c].heat, other.next[c].heat) << c;
+        ASSERT_EQ(own.next[c].flux, other.next[c].flux) << c;
+    }
+    EXPECT_NE(own.next[1].heat, 0.0f);
+}
+
 TEST(OwnSteps, ArePlacedTaskByTask) {
     OwnWork own;
     const TaskBody there{"there", 0, {own.spread(own.now, own.next)}};

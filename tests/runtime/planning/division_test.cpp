@@ -30,6 +30,13 @@ TEST(Division, CutsAreWhereRegionsMeet) {
     EXPECT_EQ(division.mask(), 0b1101U);
 }
 
+TEST(Division, DistanceIsTheMostStripsOfAnyDevice) {
+    const Division one{{3, 0, 5, 2}};
+    EXPECT_EQ(one.distance(one), 0);
+    EXPECT_EQ(one.distance({{3, 1, 4, 2}}), 1);
+    EXPECT_EQ(one.distance({{2, 4, 4, 0}}), 4);
+}
+
 TEST(Division, ProportionalIsWithinAStripOfTheShares) {
     const std::vector<std::vector<double>> speeds{
         {1.0}, {1.0, 1.0}, {1.0, 3.0}, {5.0, 0.1}, {0.01, 100.0, 1.0}, {2.0, 3.0, 4.0, 5.0}};
