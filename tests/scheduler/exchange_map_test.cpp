@@ -320,6 +320,21 @@ TEST(PlacingRanks, TheGaussSeidelRankKeepsIterationsTogether) {
     EXPECT_LT(2 * with, without);
 }
 
+/// Where slots are short, one is used again before it is safe to do so without a wait.
+TEST(ExchangeMap, FewerSlotsThanWouldBePleasantStillDo) {
+    ExchangeProblem problem = strips(5, 8);
+    problem.window = 4;
+    problem.dropping = false;
+    problem.wait = 2.0;
+    problem.most_slots = 64;
+    plan_in_turn(problem, std::vector<double>(problem.tasks.size(), 1.0));
+    const int pleasant = make_exchange_map(problem).slots;
+    problem.most_slots = pleasant - 1;
+    const ExchangeMap map = make_exchange_map(problem);
+    EXPECT_EQ(map.slots, pleasant - 1);
+    EXPECT_EQ(find_fault(problem, map), "");
+}
+
 TEST(ExchangeMap, TooFewSlotsAreRefused) {
     auto problem = families(3, 6);
     problem.most_slots = 1;
