@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <numeric>
 
 #include "tests/runtime/library/own_device.h"
 #include "tests/runtime/library/own_work.h"
@@ -127,6 +128,23 @@ TEST(OwnKernels, LaunchesThatTakeTurnsDoAllColours) {
         ASSERT_EQ(own.next[c].flux, other.next[c].flux) << c;
     }
     EXPECT_NE(own.next[1].heat, 0.0f);
+}
+
+TEST(OwnWork, PartsOfAFrameAreAllOfItsTime) {
+    OwnWork own;
+    Runner runner(own.work, {.devices = "cpu/1"});
+    double last_end = 0.0;
+    for (std::uint32_t number = 0; number < 3; ++number) {
+        const FrameRecord frame = runner.advance(OwnWork::kInstances);
+        EXPECT_EQ(frame.frame, number);
+        const std::vector<double> parts{frame.place_time, frame.plan_time, frame.execute_time,
+                                        frame.learn_time};
+        for (const double part : parts) EXPECT_GE(part, 0.0);
+        EXPECT_NEAR(std::accumulate(parts.begin(), parts.end(), 0.0), frame.end - frame.start,
+                    1e-9);
+        EXPECT_GE(frame.start, last_end);
+        last_end = frame.end;
+    }
 }
 
 TEST(OwnSteps, ArePlacedTaskByTask) {
