@@ -24,6 +24,8 @@ constexpr double kMostStrain = 10.0;
 constexpr double kVisibleStrain = 0.05;  ///< of edges, RMS
 constexpr double kVisibleStrainOfSolids = 0.02;
 constexpr double kTornStrain = 1.0;  ///< of one edge
+// What contacts have stored is seen as little in edges as it has to do with them.
+constexpr double kMostInContacts = 10.0;
 // And what no such sweep does.
 constexpr double kExplodingMotion = 10.0;
 constexpr double kExplodingStrain = 1000.0;
@@ -121,9 +123,11 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double had = std::max(entry.start + outside - entry.energies.gravity, 0.0);
     const double motion = entry.energies.kinetic;
     const double strained = entry.energies.strain();
+    const double pressed = entry.energies.contact.value_or(0.0);
     const double most = most_strain(model, strain);
     const auto is_fine = [&](double enough) {
-        return motion <= kMostMotion * enough && strained <= most * enough;
+        return motion <= kMostMotion * enough && strained <= most * enough &&
+               pressed <= kMostInContacts * enough;
     };
     // What rounding gives takes a while to find out, and is hardly ever asked for.
     if (is_fine(had + small_)) return std::nullopt;
@@ -132,9 +136,11 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const bool explodes = motion > kExplodingMotion * enough ||
                           (strained > kExplodingStrain * enough && std::isfinite(most));
     return EnergyAlarm{
-        fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain (edges: {:.3g} "
-                    "% RMS), where {:.3g} J were to be had",
-                    motion, strained, 100.0 * strain.rms, had),
+        fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
+                    "{:.3g} % RMS), where {:.3g} J were to be had",
+                    motion, strained,
+                    pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "",
+                    100.0 * strain.rms, had),
         explodes};
 }
 

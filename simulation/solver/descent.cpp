@@ -26,14 +26,15 @@ DescentSubstep::DescentSubstep(Model& model, int first_kind)
 void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (!contact_) return;
     for (const TaskBody* body : contact_->bodies()) bodies.push_back(body);
-    if (touching_) bodies.push_back(&touching_->steps());
+    if (!touching_) return;
+    for (const TaskBody* body : touching_->bodies()) bodies.push_back(body);
 }
 
 void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (free_bodies_) kinds.push_back("momentum");
     if (!contact_) return;
     for (std::string& kind : contact_->kinds()) kinds.push_back(std::move(kind));
-    if (touching_) kinds.push_back(touching_->steps().name);
+    if (touching_) kinds.push_back(touching_->name_of_steps());
 }
 
 std::vector<RowTable*> DescentSubstep::tables() {
@@ -87,7 +88,8 @@ void DescentSubstep::add_shift(std::vector<Launch>& launches) {
 }
 
 std::vector<Launch> DescentSubstep::sum_momentum(Buffer<float4>& positions) {
-    return touching_ ? touching_->sum(positions, targets_) : free_bodies_->sum(positions, targets_);
+    return touching_ ? touching_->sum(positions, targets_, kind_of_momentum())
+                     : free_bodies_->sum(positions, targets_);
 }
 
 void DescentSubstep::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
@@ -120,20 +122,22 @@ Step::Adding DescentSubstep::add_begin(Step& step, const TaskBody& body, const R
     return task;
 }
 
-void DescentSubstep::add_sum(Step& step, const TaskBody& body, const Region& region,
-                             Buffer<float4>& positions, int iteration) {
-    if (!free_bodies_->reach_into(region.begin, region.end)) return;
-    const auto [first, last] = vertices(region.begin, region.end);
-    auto task = step.add(body, iteration, region.begin, region.end, region.id);
-    task.reads(targets_, first, last);
-    if (touching_) return touching_->add_sum_accesses(task, region, positions);
-    task.reads(positions, first, last);
-    free_bodies_->add_sum_accesses(task, region.begin, region.end);
+void DescentSubstep::add_momentum(Step& step, const TaskBody& body,
+                                  const std::vector<Region>& regions, Buffer<float4>& positions,
+                                  int iteration) {
+    if (!free_bodies_) return;
+    if (touching_) return touching_->add_rounds(step, body, regions, positions, iteration);
+    for (const Region& region : regions) {
+        if (!free_bodies_->reach_into(region.begin, region.end)) continue;
+        const auto [first, last] = vertices(region.begin, region.end);
+        auto task = step.add(body, iteration, region.begin, region.end, region.id);
+        task.reads(targets_, first, last).reads(positions, first, last);
+        free_bodies_->add_sum_accesses(task, region.begin, region.end);
+    }
 }
 
 Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
                                      int iteration) {
-    if (touching_ && region.begin == 0) touching_->add_steps(step, iteration);
     const auto [first, last] = vertices(region.begin, region.end);
     auto task = step.add(body, iteration, region.begin, region.end, region.id);
     task.reads(*model_.previous, first, last)

@@ -30,8 +30,9 @@ public:
     /// end; what that launches, for the positions after the last iteration.
     bool has_free_bodies() const { return free_bodies_ != nullptr; }
     std::vector<Launch> sum_momentum(Buffer<float4>& positions);
-    void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
-                 int iteration);
+    /// Behind the last iteration of all regions; nothing without such bodies.
+    void add_momentum(Step& step, const TaskBody& body, const std::vector<Region>& regions,
+                      Buffer<float4>& positions, int iteration);
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);

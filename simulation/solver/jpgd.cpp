@@ -121,10 +121,7 @@ public:
             }
         }
         add_check(step, regions, iterations_);
-        for (const Region& region : regions) {
-            if (!substep_.has_free_bodies()) break;
-            substep_.add_sum(step, momentum_, region, after(iterations_), iterations_);
-        }
+        substep_.add_momentum(step, momentum_, regions, after(iterations_), iterations_);
         for (const Region& region : regions) add_velocities(step, region);
         substep_.add_measurements(step, regions, iterations_);
         step.seal();

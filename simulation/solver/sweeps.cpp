@@ -75,10 +75,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
     for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
-    for (const Region& region : regions) {
-        if (!substep_.has_free_bodies()) break;
-        substep_.add_sum(step, momentum_, region, *model_.positions, iterations - 1);
-    }
+    substep_.add_momentum(step, momentum_, regions, *model_.positions, iterations - 1);
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);
     }

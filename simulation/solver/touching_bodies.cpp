@@ -9,6 +9,7 @@ namespace weft {
 namespace {
 
 constexpr int kParts = WEFT_BODY_PARTS;
+constexpr int kRoundsWithFriction = 12;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -55,7 +56,8 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
-    steps_ = {"bodies", kind, solve()};
+    steps_ = {"bodies", kind, solve(0.0f)};
+    steps_again_ = {"bodies", kind, solve(1.0f)};
 }
 
 void TouchingBodies::number_bodies(const Model& model) {
@@ -74,27 +76,57 @@ void TouchingBodies::number_bodies(const Model& model) {
     std::ranges::transform(masses, masses_.data(), [](double m) { return static_cast<float>(m); });
 }
 
-std::vector<Launch> TouchingBodies::solve() {
+std::vector<Launch> TouchingBodies::solve(float moved) {
     const Segments all{&begin_, 0, 1, model_.strips.count()};
     return {launch(kernels::solve_bodies, all, lags_, first_run_, counts_, masses_, shifts_, rests_,
-                   bodies_.most_runs(), lag_count_, body_count()),
+                   moved, bodies_.most_runs(), lag_count_, body_count()),
             launch(kernels::solve_groups, all, rests_, groups_.firsts, groups_.counts,
                    groups_.members, group_shifts_, body_count(), kInstance),
             launch(kernels::add_groups, all, shifts_, rests_, group_shifts_, groups_.leaders,
                    body_count(), kInstance)};
 }
 
-std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets) {
-    return {contact_.add_lags(bodies_.columns(), positions, targets, body_of_, groups_, partials_),
+std::vector<const TaskBody*> TouchingBodies::bodies() const {
+    return {&steps_, &sums_again_, &steps_again_};
+}
+
+std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
+                                        int kind) {
+    targets_ = &targets;
+    sums_again_ = {"momentum", kind, sum_round(positions, targets, 1.0f)};
+    return sum_round(positions, targets, 0.0f);
+}
+
+std::vector<Launch> TouchingBodies::sum_round(Buffer<float4>& positions, Buffer<float4>& targets,
+                                              float moved) {
+    return {contact_.add_lags(bodies_.columns(), positions, targets, body_of_, groups_, shifts_,
+                              moved, partials_),
             bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
 }
 
+/// Without friction a second round would find next to nothing.
+void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
+                                const std::vector<Region>& regions, Buffer<float4>& positions,
+                                int iteration) {
+    const int rounds = contact_.rubbing().friction > 0.0 ? kRoundsWithFriction : 1;
+    for (int round = 0; round < rounds; ++round) {
+        for (const Region& region : regions) {
+            add_sum(step, round == 0 ? body : sums_again_, region, positions, iteration);
+        }
+        add_steps(step, round == 0 ? steps_ : steps_again_, iteration);
+    }
+}
+
 /// Contacts reach anywhere.
-void TouchingBodies::add_sum_accesses(Step::Adding& task, const Region& region,
-                                      Buffer<float4>& positions) {
+void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
+                             Buffer<float4>& positions, int iteration) {
+    if (!bodies_.reach_into(region.begin, region.end)) return;
     const int first = model_.vertices().item(region.begin);
     const int last = model_.vertices().item(region.end);
-    task.reads(positions, 0, model_.vertex_count());
+    auto task = step.add(body, iteration, region.begin, region.end, region.id);
+    task.reads(*targets_, first, last)
+        .reads(positions, 0, model_.vertex_count())
+        .reads(shifts_, 0, body_count() + 1);
     rows_.add_reads(task, region.begin, region.end, first, last);
     const auto [first_run, end_run] = bodies_.runs_in(region.begin, region.end);
     for (int part = 0; part < kParts; ++part) {
@@ -102,8 +134,8 @@ void TouchingBodies::add_sum_accesses(Step::Adding& task, const Region& region,
     }
 }
 
-void TouchingBodies::add_steps(Step& step, int iteration) {
-    auto task = step.add(steps_, iteration, 0, 1, 0);
+void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) {
+    auto task = step.add(body, iteration, 0, 1, 0);
     for (int part = 0; part < kParts; ++part) {
         const int first = part * lag_count_;
         task.reads(lags_, first, first + bodies_.run_count());

@@ -15,19 +15,26 @@ public:
     /// kind: of the task. All others must outlive this.
     TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact, int kind);
 
+    /// As FreeBodies', of the first round. kind: of the tasks that do it
+    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets, int kind);
+    /// All rounds: sums, each followed by steps. body: with what sum() gave
+    void add_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions,
+                    Buffer<float4>& positions, int iteration);
     // As FreeBodies'.
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
-    void add_sum_accesses(Step::Adding& task, const Region& region, Buffer<float4>& positions);
     Launch shift(Model& model, Buffer<float4>& deviations);
     void add_shift_accesses(Step::Adding& task);
 
-    /// Between all sums and shifts: the steps.
-    const TaskBody& steps() const { return steps_; }
-    void add_steps(Step& step, int iteration);
+    /// What there is besides the sums of the first round.
+    std::vector<const TaskBody*> bodies() const;
+    const std::string& name_of_steps() const { return steps_.name; }
 
 private:
+    std::vector<Launch> sum_round(Buffer<float4>& positions, Buffer<float4>& targets, float moved);
+    void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
+                 int iteration);
+    void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);
-    std::vector<Launch> solve();
+    std::vector<Launch> solve(float moved);
     int body_count() const { return groups_.body_count(); }
 
     const Model& model_;
@@ -47,7 +54,9 @@ private:
     Buffer<float4> group_shifts_;  ///< [bodies]
     Buffer<float4> shifts_;        ///< [bodies + 1]
     Buffer<int> begin_;            ///< [strips + 1] all bodies are items of strip 0
+    Buffer<float4>* targets_ = nullptr;
     TaskBody steps_;
+    TaskBody sums_again_, steps_again_;  ///< of the rounds behind the first one
 };
 
 }  // namespace weft

@@ -329,14 +329,15 @@ void lags_case(KernelCase& c) {
     }
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     auto& leaders = add_indices(c, "leaders", kSubsteps * kBodies, kBodies);
+    auto& shifts = add_points(c, "shifts", kBodies + 1);
     Contacts contacts(c);
     auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
     c.launch = launch(kernels::add_pushed_lags, c.segments, positions, targets, members, shares,
-                      column_rows, bodies, leaders, contacts.rows.rows, contacts.rows.counts,
-                      contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
-                      contacts.normals, contacts.weights, contacts.measures, partials,
-                      c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f, c.items, kBodies,
-                      kInstance);
+                      column_rows, bodies, leaders, shifts, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
+                      c.random.integer(0, 1) == 0 ? 0.0f : 1.0f, c.items, kBodies, kInstance);
 }
 
 void bodies_case(KernelCase& c) {
@@ -347,10 +348,10 @@ void bodies_case(KernelCase& c) {
     for (float& count : counts.span()) count = static_cast<float>(c.random.integer(1, kMostRuns));
     auto& masses = c.add<float>("masses", c.items);
     for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
-    auto& shifts = c.add<float4>("shifts", c.items);
+    auto& shifts = add_points(c, "shifts", c.items);
     auto& rests = c.add<float4>("rests", 3 * c.items);
     c.launch = launch(kernels::solve_bodies, c.segments, lags, first, counts, masses, shifts, rests,
-                      kMostRuns, c.items + kMostRuns, c.items);
+                      1.0f, kMostRuns, c.items + kMostRuns, c.items);
 }
 
 /// What solve_bodies leaves: positive masses, and semi-definite blocks; nothing of some bodies.

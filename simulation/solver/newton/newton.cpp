@@ -116,10 +116,7 @@ public:
         add_check(step);
         for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
-        for (const Region& region : regions_) {
-            if (!substep_.has_free_bodies()) break;
-            substep_.add_sum(step, momentum_, region, *model_.positions, number_);
-        }
+        substep_.add_momentum(step, momentum_, regions_, *model_.positions, number_);
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
         substep_.add_measurements(step, regions_, number_);
         step.seal();
