@@ -7,6 +7,9 @@
 // Chentanez 2016); further in, a step of Newton's method for l stands in its place. It never goes
 // too far in from too few: E' is concave.
 //
+// What presses by l holds back what slides along it by as much as mu l: that is a projection of its
+// own behind it.
+//
 // All contacts are projected at once, from positions that all vertices share. So that those of one
 // vertex do not do its work several times over, each gets a part of its mass (Tonge, Benevolenski
 // and Voroshilov 2012): a vertex with n contacts is n times as light for each of them. All vertices
@@ -31,6 +34,20 @@ WEFT_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const
     real light = splat(0.0f);
     for (int k = 0; k < longest; ++k) light = splat_whole(k) < count ? light + x.w : light;
     store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), with_w(xyz(x), light));
+}
+
+/// How light a contact's vertices are together, with the parts of their masses that it has: the sum
+/// of w_j^2 / mass_j [1/kg]. Parameters as in project_contacts.
+WEFT_INLINE real lightness_of(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL const int* corner0,
+                              WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                              WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* weights,
+                              integer entry) {
+    const real4 w = gather4(weights, entry);
+    const real light0 = gather4(snapshot, address(gather_whole(corner0, entry))).w;
+    const real light1 = gather4(snapshot, address(gather_whole(corner1, entry))).w;
+    const real light2 = gather4(snapshot, address(gather_whole(corner2, entry))).w;
+    const real light3 = gather4(snapshot, address(gather_whole(corner3, entry))).w;
+    return w.x * w.x * light0 + w.y * w.y * light1 + w.z * w.z * light2 + w.w * w.w * light3;
 }
 
 /// By how much the multiplier of a contact changes.
@@ -70,17 +87,69 @@ WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const f
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
             const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
-            const real4 w = gather4(weights, entry);
-            const real light0 = gather4(snapshot, address(gather_whole(corner0, entry))).w;
-            const real light1 = gather4(snapshot, address(gather_whole(corner1, entry))).w;
-            const real light2 = gather4(snapshot, address(gather_whole(corner2, entry))).w;
-            const real light3 = gather4(snapshot, address(gather_whole(corner3, entry))).w;
             const real lightness =
-                w.x * w.x * light0 + w.y * w.y * light1 + w.z * w.z * light2 + w.w * w.w * light3;
+                lightness_of(snapshot, corner0, corner1, corner2, corner3, weights, entry);
             const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
             const real change = change_of_multiplier(c, multiplier, lightness, inverse_h2);
             scatter_where(on, multipliers, entry, multiplier + change);
             push = add_scaled(push, c.normal, on ? c.own * change : zero);
+        }
+        store4(positions, i, with_w(add_scaled(xyz(x), push, x.w), x.w));
+    }
+}
+
+/// What a contact's surfaces rub each other by, as an impulse times the substep [N s^2], after one
+/// more step towards -mu l f(|u|/e) u/|u| (contact/friction.h), which is as far as Coulomb's law
+/// lets it go: mu l.
+/// rub  what it was
+/// cap  mu l
+WEFT_INLINE real3 rubbed(contact_entry c, real3 rub, real cap, real lightness, float creep) {
+    const real one = splat(1.0f);
+    const real stick = cap * friction_grip(length3(c.slip), splat(creep));
+    const real rest = one / (one + stick * lightness);
+    const real3 next = add_scaled(scale(rub, one - rest), c.slip, -stick * rest);
+    return scale(next, cap / larger(length3(next), larger(cap, splat(1e-30f))));
+}
+
+/// Holds back what slides, across the normals: behind project_contacts, from the same snapshot, by
+/// how hard it has made contacts press. What a vertex' contacts have of its mass they have in each
+/// direction. Over all vertices.
+/// multipliers  [entries] l [N s^2], those of this iteration
+/// rubs         [entries] xyz: the impulse times the substep along the surfaces [N s^2]; taken as 0
+///              in iteration 0
+/// friction     Coulomb coefficient mu
+/// creep        e [m] > 0
+/// others as in project_contacts
+WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float* multipliers,
+            WEFT_GLOBAL float4* rubs, int vertex_count, int iteration, float friction,
+            float creep) {
+    const whole count = load_whole(counts, i);
+    const int longest = largest_whole(count);
+    if (longest > 0) {
+        WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
+        const whole start = load_whole(rows, i);
+        const real zero = splat(0.0f);
+        const real3 none = make3(zero, zero, zero);
+        const real4 x = load4(positions, i);
+        real3 push = none;
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const integer entry =
+                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
+                                                 normals, weights, measures, entry);
+            const real lightness =
+                lightness_of(snapshot, corner0, corner1, corner2, corner3, weights, entry);
+            const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));
+            const real cap = splat(friction) * gather(multipliers, entry);
+            const real3 next = rubbed(c, rub, cap, lightness, creep);
+            scatter4_where(on, rubs, entry, with_w(next, zero));
+            push = add_scaled(push, subtract(next, rub), on ? c.own : zero);
         }
         store4(positions, i, with_w(add_scaled(xyz(x), push, x.w), x.w));
     }

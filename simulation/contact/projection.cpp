@@ -8,7 +8,9 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
     : model_(model),
       rows_(contact.rows()),
       snapshots_(contact.snapshots()),
-      multipliers_(rows_.table.add_column<float>("multipliers")) {
+      rubbing_(contact.rubbing()),
+      multipliers_(rows_.table.add_column<float>("multipliers")),
+      rubs_(rubbing_.friction > 0.0 ? &rows_.table.add_column<float4>("rubs") : nullptr) {
     contact.show_start(share(0), share(1));
 }
 
@@ -27,12 +29,25 @@ void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration,
     task.reads(rows_.table.counts(), first, last).updates(snapshots_, half + first, half + last);
 }
 
-Launch ContactProjection::project() {
+void ContactProjection::add_project(std::vector<Launch>& launches) {
+    launches.push_back(push());
+    if (rubs_ != nullptr) launches.push_back(rub());
+}
+
+Launch ContactProjection::push() {
     return launch(kernels::project_contacts, model_.vertices(), *model_.positions, snapshots_,
                   rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
                   rows_.corner2, rows_.corner3, rows_.normals, rows_.weights, rows_.measures,
                   multipliers_, model_.vertex_count(),
                   static_cast<float>(1.0 / (model_.h * model_.h)), kIteration);
+}
+
+Launch ContactProjection::rub() {
+    return launch(kernels::rub_contacts, model_.vertices(), *model_.positions, snapshots_,
+                  rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
+                  rows_.corner2, rows_.corner3, rows_.normals, rows_.weights, rows_.measures,
+                  multipliers_, *rubs_, model_.vertex_count(), kIteration,
+                  static_cast<float>(rubbing_.friction), static_cast<float>(rubbing_.creep));
 }
 
 void ContactProjection::add_project_accesses(Step::Adding& task, int iteration, int first_strip,
@@ -44,6 +59,7 @@ void ContactProjection::add_project_accesses(Step::Adding& task, int iteration, 
     task.updates(*model_.positions, first, last)
         .reads(snapshots_, half, half + all)
         .updates(multipliers_, rows_.table.entries());
+    if (rubs_ != nullptr) task.updates(*rubs_, rows_.table.entries());
     rows_.add_reads(task, first_strip, end_strip, first, last);
 }
 

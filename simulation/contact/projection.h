@@ -16,17 +16,22 @@ public:
     void add_snapshot(std::vector<Launch>& launches);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
 
-    /// In a task of its own behind that, over strips [first_strip, end_strip).
-    Launch project();
+    /// In a task of its own behind that, over strips [first_strip, end_strip): contacts push, and
+    /// rub where there is friction.
+    void add_project(std::vector<Launch>& launches);
     void add_project_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
 private:
     Launch share(int ahead);
+    Launch push();
+    Launch rub();
 
     Model& model_;
     ContactRows rows_;
-    Buffer<float4>& snapshots_;   ///< [2 * vertices] the contacts'
+    Buffer<float4>& snapshots_;  ///< [2 * vertices] the contacts'
+    Rubbing rubbing_;
     Buffer<float>& multipliers_;  ///< [entries of the rows]
+    Buffer<float4>* rubs_;        ///< likewise; null: no friction
 };
 
 }  // namespace weft

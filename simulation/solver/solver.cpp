@@ -28,10 +28,10 @@ std::string why_no_contact(const Scene& scene) {
     if (!scene.contact) return {};
     const bool rubs = scene.contact->friction.value_or(0.0) > 0.0;
     const Method method = scene.solver.method;
-    if (rubs && (method == Method::kXpbd || method == Method::kNewton)) {
+    if (rubs && method == Method::kNewton) {
         return fmt::format(
             "contact.friction is not there yet for {}; leave it out, or take "
-            "solver.method = \"vbd\", \"sosd\" or \"jpgd\"",
+            "solver.method = \"vbd\", \"sosd\", \"jpgd\" or \"xpbd\"",
             name_of(method));
     }
     return {};

@@ -137,7 +137,7 @@ private:
 
     void make_push() {
         push_ = new_kind("push");
-        push_.launches.push_back(projection_->project());
+        projection_->add_project(push_.launches);
         add_obstacles(push_);
         contact_->add_truncation(push_.launches, *model_.positions);
     }

@@ -302,7 +302,7 @@ def test_contacts_are_in_the_energy(folder, friction):
     study = weft_json("error", "scene.toml", "--out", "out", "--devices", "cpu/1", "--frame", "4",
                       "--max-iterations", "400", "--time", "60", cwd=folder)
     assert study["energies"] == ["inertia", "springs", "contact"] + ["friction"] * (friction > 0)
-    solvers = {"vbd", "sosd", "jpgd"} | ({"xpbd", "newton"} if friction == 0.0 else set())
+    solvers = {"xpbd", "vbd", "sosd", "jpgd"} | ({"newton"} if friction == 0.0 else set())
     curves = {key[0]: curve for key, curve in read_curves(folder / "out" / "error.csv").items()}
     assert set(curves) == solvers
     (note,) = [note for note in study["notes"] if "contacts, as they are where it begins" in note]

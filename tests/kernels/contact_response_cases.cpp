@@ -267,6 +267,18 @@ void project_case(KernelCase& c) {
                       contacts.measures, multipliers, c.items, 1e4f, kIteration);
 }
 
+void rub_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
+    for (float& l : multipliers.span()) l = std::max(c.random.real(-0.02f, 0.1f), 0.0f);
+    auto& rubs = add_points(c, "rubs", contacts.rows.entries);
+    c.launch = launch(kernels::rub_contacts, c.segments, contacts.positions, snapshots,
+                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
+                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
+                      contacts.measures, multipliers, rubs, c.items, kIteration, 0.3f, 0.1f);
+}
+
 /// Lists of random entries: begin [items + 1], list.
 std::pair<Buffer<int>*, Buffer<int>*> add_lists(KernelCase& c, const std::string& name, int items,
                                                 int end) {
@@ -404,7 +416,8 @@ const bool added =
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&
-    add_case("couple_contacts", couple_case) && add_case("multiply_contacts", multiply_case);
+    add_case("rub_contacts", rub_case) && add_case("couple_contacts", couple_case) &&
+    add_case("multiply_contacts", multiply_case);
 
 }  // namespace
 }  // namespace weft::test

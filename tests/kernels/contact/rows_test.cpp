@@ -22,6 +22,7 @@ constexpr int kVertices = 20;
 constexpr int kHeld = 4;
 constexpr int kContacts = 24;
 constexpr double kInverseH2 = 1e4;
+constexpr float kSlow = 0.05f;  ///< the way below which friction sticks [m]
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -56,6 +57,7 @@ public:
           weights_(table_.add_column<float4>("weights")),
           measures_(table_.add_column<float4>("measures")),
           multipliers_(table_.add_column<float>("multipliers")),
+          rubs_(table_.add_column<float4>("rubs")),
           snapshots_("snapshots", 2 * kVertices) {
         for (int v = 0; v < kVertices; ++v) {
             positions[at(v)] = random_.point(0.04f);
@@ -84,15 +86,15 @@ public:
         return energy;
     }
 
-    /// dE/dx of the contacts alone, at the positions as their snapshot [N].
-    std::vector<Vec3> gradient() {
+    /// dE/dx of the contacts alone, at the positions as their snapshot [N]; with what rubs there.
+    std::vector<Vec3> gradient(float friction = 0.0f) {
         Buffer<int> vertices("vertices", kVertices);
         for (int v = 0; v < kVertices; ++v) vertices[at(v)] = v;
         Buffer<float> sums("sums", 9 * kVertices);
         const Launch gather = launch(kernels::gather_contacts, Segments{}, positions, positions,
                                      vertices, table_.rows(), table_.counts(), *corners_[0],
                                      *corners_[1], *corners_[2], *corners_[3], normals_, weights_,
-                                     measures_, sums, kVertices, 0, kIteration, 0.0f, 1.0f);
+                                     measures_, sums, kVertices, 0, kIteration, friction, kSlow);
         run_on_host(gather, gather.kernel->scalar, 0, kVertices);
         std::vector<Vec3> gradient;
         for (std::size_t v = 0; v < kVertices; ++v) {
@@ -102,7 +104,7 @@ public:
     }
 
     /// One iteration of XPBD without any elements.
-    void project(int iteration) {
+    void project(int iteration, float friction = 0.0f) {
         const Launch share = launch(kernels::share_masses, Segments{}, positions, table_.counts(),
                                     snapshots_, kVertices, kIteration, 0);
         run_on_host(share, share.kernel->scalar, 0, kVertices, 0, iteration);
@@ -112,6 +114,12 @@ public:
                    normals_, weights_, measures_, multipliers_, kVertices,
                    static_cast<float>(kInverseH2), kIteration);
         run_on_host(push, push.kernel->scalar, 0, kVertices, 0, iteration);
+        if (friction == 0.0f) return;
+        const Launch rub = launch(kernels::rub_contacts, Segments{}, positions, snapshots_,
+                                  table_.rows(), table_.counts(), *corners_[0], *corners_[1],
+                                  *corners_[2], *corners_[3], normals_, weights_, measures_,
+                                  multipliers_, rubs_, kVertices, kIteration, friction, kSlow);
+        run_on_host(rub, rub.kernel->scalar, 0, kVertices, 0, iteration);
     }
 
     double gap(const TestContact& c) const {
@@ -182,6 +190,7 @@ private:
     std::array<Buffer<int>*, 4> corners_;
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float>& multipliers_;
+    Buffer<float4>& rubs_;
     Buffer<float4> snapshots_;
 };
 
@@ -225,14 +234,18 @@ TEST(ContactRows, TheForceIsTheEnergysSlope) {
 }
 
 /// Where the inertia that pulls back to the start and the forces of contacts are equal: at the
-/// minimum of the energy that the other solvers minimise.
+/// minimum of the energy that the other solvers minimise. With friction, where their forces of
+/// friction are in balance with both.
 TEST(ContactProjection, EndsAtTheMinimumOfTheStepsEnergy) {
-    for (const unsigned seed : {5U, 6U, 7U}) {
+    for (const auto& [seed, friction] :
+         {std::pair(5U, 0.0f), {6U, 0.0f}, {7U, 0.0f}, {5U, 0.3f}, {6U, 0.3f}, {7U, 0.3f}}) {
         TouchingVertices touching(seed, kHeld);
         std::vector<Vec3> start;
         for (const float4& x : touching.positions.span()) start.push_back(to_vec3(x));
-        for (int iteration = 0; iteration < 2000; ++iteration) touching.project(iteration);
-        const auto gradient = touching.gradient();
+        for (int iteration = 0; iteration < 2000; ++iteration) {
+            touching.project(iteration, friction);
+        }
+        const auto gradient = touching.gradient(friction);
         double moved = 0.0;
         for (int v = kHeld; v < kVertices; ++v) {
             const float4& x = touching.positions[at(v)];
@@ -252,11 +265,13 @@ Vec3 momentum(const Buffer<float4>& positions) {
 }
 
 TEST(ContactProjection, WhatOneVertexGetsTheOthersGive) {
-    TouchingVertices touching(8, 0);
-    const Vec3 before = momentum(touching.positions);
-    for (int iteration = 0; iteration < 5; ++iteration) {
-        touching.project(iteration);
-        EXPECT_LT(length(momentum(touching.positions) - before), 1e-6) << iteration;
+    for (const float friction : {0.0f, 0.5f}) {
+        TouchingVertices touching(8, 0);
+        const Vec3 before = momentum(touching.positions);
+        for (int iteration = 0; iteration < 5; ++iteration) {
+            touching.project(iteration, friction);
+            EXPECT_LT(length(momentum(touching.positions) - before), 1e-6) << iteration;
+        }
     }
 }
 

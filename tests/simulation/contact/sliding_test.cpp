@@ -97,7 +97,6 @@ TEST_P(Unconverged, SlidesDownClothAsPhysicsSays) {
 /// Friction goes by how hard contacts press, of which few iterations leave much that is not there.
 /// (At first the sheet is thrown up a little, and nothing rubs it.)
 TEST_P(Unconverged, RubsOnClothAsCoulombSays) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "knows no friction";
     const std::string friction = kContact + "friction = 0.1\n";
     for (const int iterations : {2, 6, 8, 40}) {
         const Scene scene = on_slope(head(iterations, friction) + kSlope + stiff(0.0034, 13));
@@ -114,7 +113,6 @@ TEST_P(Unconverged, RubsOnClothAsCoulombSays) {
 /// On the other side of tan = mu: what sticks may creep. (By jpgd what presses comes and goes, and
 /// a few iterations creep faster: docs/contact.md.)
 TEST_P(Unconverged, SticksToClothAsCoulombSays) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "knows no friction";
     const std::string friction = kContact + "friction = 0.4\n";
     for (const int iterations : {GetParam() == Method::kJpgd ? 40 : 8, 40}) {
         ManualRun run(on_slope(head(iterations, friction) + kSlope + stiff(0.0034, 13)));

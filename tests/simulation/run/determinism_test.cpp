@@ -38,6 +38,7 @@ const TestScene kScenes[] = {
     {"VbdWoven", kWoven, Method::kVbd, "f6c35808291ea8c453bfb474677b1d57"},
     {"VbdTouching", kTouching, Method::kVbd, "9f0b8f6800e153e6a3144274e828b832"},
     {"VbdRubbing", kRubbing, Method::kVbd, "b275a5fe25121d4a7b762f71dfe0ebd8"},
+    {"XpbdRubbing", kRubbing, Method::kXpbd, "b91525337b6cd3e21125e531b9cc6e99"},
     {"SosdTouching", kTouching, Method::kSosd, "0376c345fdbe327a598053043706c385"},
     {"JpgdTouching", kTouching, Method::kJpgd, "197b95c2c833e6e872da11dfa507c51f"},
     {"NewtonTouching", kTouching, Method::kNewton, "14077223890ccaac7fba880494eaff1d"},

@@ -100,6 +100,7 @@ stretch = {{ stiffness = 1.0e3 }}
 void add_piles(std::vector<Case>& cases) {
     std::string pile = head({1.0 / 60, 8}, 2.0) + R"([contact]
 thickness = 0.01
+friction = 0.3
 [[obstacle]]
 shape = "plane"
 point = [0.0, 0.0, 0.0]
