@@ -65,13 +65,16 @@ protected:
     std::string hash_of(Devices devices, int room) {
         const auto run = simulation(std::move(devices), room);
         for (int frame = 0; frame < kFrames; ++frame) run->advance();
+        generation_ = generation();
         return run->hash();
     }
+    /// Of the simulation at hand.
     int generation() const { return solver_->tables().front()->generation(); }
 
     Scene scene_ = parse_scene(kFallingSheets, "falling.toml");
     Warnings warnings_;
-    NeighbourSolver* solver_ = nullptr;  ///< of the last simulation
+    NeighbourSolver* solver_ = nullptr;  ///< of the last simulation, while it is there
+    int generation_ = 0;                 ///< at the end of the last hash_of()
 };
 
 Devices cpus(int count, int lanes = 8) {
@@ -90,10 +93,10 @@ void add_opencl(Devices& devices, MemoryModel memory, int lanes, bool per_colour
 
 TEST_F(GrowingTables, EveryRoomGivesTheSameBits) {
     const std::string expected = hash_of(cpus(1), kPlenty);
-    ASSERT_EQ(generation(), 0) << "there is not plenty of room";
+    ASSERT_EQ(generation_, 0) << "there is not plenty of room";
     for (const int room : {0, 1, 2, 3, 5, 8, 13, 21, 34}) {
         EXPECT_EQ(hash_of(cpus(1), room), expected) << room;
-        EXPECT_GT(generation(), 0) << room;
+        EXPECT_GT(generation_, 0) << room;
     }
 }
 
@@ -134,7 +137,7 @@ TEST_F(GrowingTables, OnOpenClOfEveryKind) {
                     Devices mixed = cpus(1);
                     add_opencl(mixed, memory, lanes, per_colour);
                     EXPECT_EQ(hash_of(std::move(mixed), room), expected);
-                    EXPECT_GT(generation(), 0);
+                    EXPECT_GT(generation_, 0);
                 }
             }
         }
