@@ -92,6 +92,18 @@ TEST(CostModel, DiscardsFirstRunsButUsesThemUntilThereAreOthers) {
     EXPECT_DOUBLE_EQ(model.predict(0, 0, 1000.0), 1e-3);
 }
 
+/// Of one frame only: it is a fit as any other.
+TEST(CostModel, ARestoredFitKeepsItsShapeWhileItemCountsAreAlike) {
+    for (const std::uint32_t frames : {1u, 20u}) {
+        CostModel model(1, 1, {.discard_first = 0});
+        model.restore(0, 0, {{1e-3, 1e-6}, 0.0, frames});
+        for (int i = 0; i < 3; ++i) model.observe(0, 0, 1000.0, 4e-3);  // twice as long
+        model.refit();
+        EXPECT_DOUBLE_EQ(model.predict(0, 0, 1000.0), 4e-3);
+        EXPECT_DOUBLE_EQ(model.predict(0, 0, 3000.0), 8e-3);
+    }
+}
+
 TEST(CostModel, RejectsOutliersWithinAFrame) {
     Machine machine;
     CostModel model(1, 1);

@@ -100,6 +100,24 @@ TEST(ExchangeMap, TasksNeedWhatIsFurtherBackThanTheWindow) {
     EXPECT_EQ(needed_tasks(problem)[4], (std::vector{1, 3}));
 }
 
+/// Device 1 has the cell and changes it; device 0, whose place is where the cell has to be in the
+/// end, only looks at it, and has it then.
+TEST(ExchangeMap, NothingIsCopiedInTheEndThatIsThereAlready) {
+    ExchangeProblem problem = families(2, 1);
+    problem.owners = {1};
+    std::swap(problem.tasks[0].device, problem.tasks[1].device);
+    problem.tasks[1].writes.clear();
+    for (ExchangeTask& task : problem.tasks) task.synchronous = true;
+    plan_in_turn(problem, {1.0, 1.0});
+    const ExchangeMap map = make_exchange_map(problem);
+    EXPECT_EQ(find_fault(problem, map), "");
+    std::vector<std::pair<int, int>> copies;
+    for (const ExchangeStep& step : map.steps) {
+        if (step.kind == Kind::kCopy) copies.emplace_back(step.from, step.to);
+    }
+    EXPECT_EQ(copies, (std::vector<std::pair<int, int>>{{0, 1}, {1, 0}}));
+}
+
 TEST(ExchangeMap, SynchronousTasksNeedAllAndAreNeededByAll) {
     ExchangeProblem problem = families(2, 6);
     problem.window = 6;
