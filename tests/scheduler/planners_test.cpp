@@ -191,8 +191,8 @@ TEST(Optimal, IsTheSameHoweverProcessorsAreNumbered) {
     int searched = 0;
     for (const double cannot : {0.0, 0.3}) {
         for (std::uint32_t seed = 0; seed < 50; ++seed) {
-            const TaskGraph graph = random_graph(
-                {.tasks = 10, .processors = 2, .cannot_share = cannot}, seed);
+            const TaskGraph graph =
+                random_graph({.tasks = 10, .processors = 2, .cannot_share = cannot}, seed);
             Portfolio({.evaluations = 5000}).plan(graph, first);
             optimal.plan(graph, plan);
             searched += plan.makespan < first.makespan * (1.0 - 1e-9) ? 1 : 0;

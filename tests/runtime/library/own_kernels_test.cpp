@@ -190,8 +190,10 @@ TEST(OwnTraces, AreReplayedWithTheSameState) {
     Runner runner(own.work, {.devices = "cpu/2", .calibrate = 0});
     for (std::size_t f = 0; f < trace.frames().size(); ++f) {
         EXPECT_FALSE(trace.frame(f).executions.empty());
+        EXPECT_EQ(runner.frame(), static_cast<int>(f));
         runner.replay(trace.run(), trace.frame(f));
     }
+    EXPECT_EQ(runner.frame(), kFrames);
     EXPECT_EQ(runner.state_hash(), trace.state_hash());
     expect_same(own);
     std::filesystem::remove(path);

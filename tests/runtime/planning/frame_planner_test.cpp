@@ -119,6 +119,37 @@ TEST(FramePlanner, DoesNotTrustLatenciesOfAnotherDayForLong) {
     EXPECT_EQ(p.advance(6).division.devices().size(), 2U);
 }
 
+/// Frames of one substep earn trials as any others do.
+TEST(FramePlanner, DoesNotTrustThemInFramesOfOneSubstepEither) {
+    Planned p(60, 100, {{2e-6, 20e-9}, {2e-6, 20e-9}}, 20e-6);
+    p.planner.timing().set_latency(0, 1, 400e-6);
+    p.planner.timing().set_latency(1, 0, 400e-6);
+    Division division;
+    for (int i = 0; i < 20; ++i) {
+        const FramePlan& plan = p.planner.next();
+        division = plan.division();
+        if (i == 0) {
+            ASSERT_EQ(division.devices().size(), 1U);
+        }
+        p.planner.learn(plan, p.machine.run(plan, 1), 1);
+    }
+    EXPECT_EQ(division.devices().size(), 2U);
+}
+
+/// Another device has become faster, and has to be given the state first.
+TEST(FramePlanner, MovesOnlyWhereMovingTakesLessThanItGains) {
+    for (const double bandwidth : {1e3, 1e15}) {
+        Planned p(60, 100, {{2e-6, 20e-9}, {2e-6, 30e-9}}, 20e-6, PlanKind::kSingle);
+        p.planner.timing().set_link(0, 1, {20e-6, bandwidth});
+        p.planner.timing().set_link(1, 0, {20e-6, bandwidth});
+        ASSERT_EQ(p.advance().division, Division::single(2, p.strip_count(), 0));
+        p.machine.speeds[0].per_item *= 3.0;
+        const bool pays = bandwidth > 1e6;
+        EXPECT_EQ(p.advance(40).division, Division::single(2, p.strip_count(), pays ? 1 : 0))
+            << bandwidth << " bytes/s";
+    }
+}
+
 TEST(FramePlanner, ExactAndSingleKeepToTheirKind) {
     const std::vector<VirtualMachine::Speed> speeds{{2e-6, 10e-9}, {2e-6, 12e-9}};
     Planned exact(20, 60, speeds, 1e-3, PlanKind::kExact);
