@@ -54,12 +54,13 @@ WEFT_INLINE body_sum add_share(body_sum a, body_sum b, real share) {
 /// bodies    [vertices] which of the free bodies each belongs to; `body_count`: to none
 /// leaders   [bodies] the first one of each body's group
 /// shifts    [bodies + 1] how far each has gone in the rounds before [m]; the last one is zero
-/// moved     1, or 0 in the first round, where `shifts` has those of another substep
+/// has_moved  0 in the first round, where `shifts` has those of another substep, which may have
+///            ended badly: nothing reads them
 /// yielding  h^2 / M of the vertex' body [m/N]
 /// others as in gather_contacts
 WEFT_INLINE body_sum add_pushes_of_others(
     body_sum sum, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* bodies,
-    WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const float4* shifts, float moved,
+    WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const float4* shifts, int has_moved,
     WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
     WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
     WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
@@ -80,12 +81,13 @@ WEFT_INLINE body_sum add_pushes_of_others(
         // The first vertex and the last one are never on one side.
         const whole one_side = gather_whole(bodies, address(gather_whole(corner0, entry)));
         const whole other_side = gather_whole(bodies, address(gather_whole(corner3, entry)));
-        const whole opposite = one_side == own_side ? other_side : one_side;
-        const real3 way =
-            scale(subtract(own_shift, xyz(gather4(shifts, address(opposite)))), splat(moved));
-        c.gap = c.gap + dot3(way, c.normal);
-        c.slip = add(c.slip, along_surface(way, c.normal));
-        if (moved > 0.0f) c.ahead = c.range;
+        if (has_moved) {
+            const whole opposite = one_side == own_side ? other_side : one_side;
+            const real3 way = subtract(own_shift, xyz(gather4(shifts, address(opposite))));
+            c.gap = c.gap + dot3(way, c.normal);
+            c.slip = add(c.slip, along_surface(way, c.normal));
+            c.ahead = c.range;
+        }
         const derivatives push = add_push(zero_derivatives(), c, both(on, one_side != other_side),
                                           make3(zero, zero, zero), friction, creep);
         const whole one = gather_whole(leaders, address(smaller_whole(one_side, last)));
@@ -115,7 +117,7 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL co
             WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
             WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
             WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float4* partials, float friction,
-            float creep, float h2, float moved, int column_count, int body_count, int substep) {
+            float creep, float h2, int has_moved, int column_count, int body_count, int substep) {
     body_sum sum = no_body_sum();
     const int length = column_rows[2 * i.first + 1];
     for (int k = 0; k < length; ++k) {
@@ -123,13 +125,16 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL co
         const integer v = load_index(members, entry);
         const real4 x = gather4(positions, v);
         const real share = load(shares, entry);
-        const real3 gone = xyz(gather4(shifts, address(gather_whole(bodies, v))));
-        const real3 lag = subtract(xyz(gather4(targets, v)), xyz(x));
-        sum.lag = add_scaled(sum.lag, add_scaled(lag, gone, splat(-moved)), share);
+        real3 lag = subtract(xyz(gather4(targets, v)), xyz(x));
+        if (has_moved) {
+            lag = subtract(lag, xyz(gather4(shifts, address(gather_whole(bodies, v)))));
+        }
+        sum.lag = add_scaled(sum.lag, lag, share);
         const real yielding = share * x.w * splat(h2);
         sum = add_pushes_of_others(sum, positions, bodies, leaders + substep * body_count, shifts,
-                                   moved, rows, counts, corner0, corner1, corner2, corner3, normals,
-                                   weights, measures, v, yielding, friction, creep, body_count);
+                                   has_moved, rows, counts, corner0, corner1, corner2, corner3,
+                                   normals, weights, measures, v, yielding, friction, creep,
+                                   body_count);
     }
     const real4 part1 = {sum.block.xy, sum.block.xz, sum.block.yy, sum.block.yz};
     const real4 part2 = {sum.block.zz, sum.outside.xx, sum.outside.xy, sum.outside.xz};
@@ -161,11 +166,11 @@ WEFT_INLINE body_sum load_body_sum(WEFT_GLOBAL const float4* lags, int lag_count
 /// rests      [3 * bodies] written, column-major: what this leaves to its group, and of what:
 ///            xyz [kg m], w: the mass, or 0 if it touches no other body [kg]; then the mass times
 ///            `outside`: xx, xy, xz, yy; and yz, zz
-/// moved      as in add_pushes_of_others
+/// has_moved  as in add_pushes_of_others
 /// most_runs  that a body has; lag_count is that more than there are runs
 WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,
-            WEFT_GLOBAL float4* shifts, WEFT_GLOBAL float4* rests, float moved, int most_runs,
+            WEFT_GLOBAL float4* shifts, WEFT_GLOBAL float4* rests, int has_moved, int most_runs,
             int lag_count, int body_count) {
     const real zero = splat(0.0f);
     body_sum sum = no_body_sum();
@@ -181,7 +186,9 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     const sym3 outside = scale_sym(sum.outside, mass);
     const real4 rest1 = {outside.xx, outside.xy, outside.xz, outside.yy};
     const real4 rest2 = {outside.yz, outside.zz, zero, zero};
-    store4(shifts, i, with_w(add_scaled(step, xyz(load4(shifts, i)), splat(moved)), zero));
+    real3 gone = step;
+    if (has_moved) gone = add(step, xyz(load4(shifts, i)));
+    store4(shifts, i, with_w(gone, zero));
     store4(rests, i, with_w(scale(left, mass), mass));
     store4(rests, column(i, body_count, 1), rest1);
     store4(rests, column(i, body_count, 2), rest2);

@@ -63,8 +63,6 @@ void check_bodies(Work& work) {
         for (const Launch& launch : body->launches) {
             check_alive(*body, launch);
             check_strips(*body, launch.segments);
-        }
-        for (const Launch& launch : body->launches) {
             items += launch.segments.item_count(0, launch.segments.strip_count);
         }
     }

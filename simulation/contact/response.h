@@ -56,9 +56,9 @@ public:
 
     /// Adds up how far free bodies lag behind, and how contacts push them as wholes
     /// (kernels/contact/bodies.h); the positions are those of all vertices.
-    /// bodies: [vertices], shifts, moved, partials: as the kernel's
+    /// bodies: [vertices], shifts, has_moved, partials: as the kernel's
     Launch add_lags(const BodyColumns& columns, Buffer<float4>& positions, Buffer<float4>& targets,
-                    Buffer<int>& bodies, BodyGroups& groups, Buffer<float4>& shifts, float moved,
+                    Buffer<int>& bodies, BodyGroups& groups, Buffer<float4>& shifts, int has_moved,
                     Buffer<float4>& partials);
 
     /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.

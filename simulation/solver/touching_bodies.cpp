@@ -56,8 +56,8 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
-    steps_ = {"bodies", kind, solve(0.0f)};
-    steps_again_ = {"bodies", kind, solve(1.0f)};
+    steps_ = {"bodies", kind, solve(0)};
+    steps_again_ = {"bodies", kind, solve(1)};
 }
 
 void TouchingBodies::number_bodies(const Model& model) {
@@ -76,10 +76,10 @@ void TouchingBodies::number_bodies(const Model& model) {
     std::ranges::transform(masses, masses_.data(), [](double m) { return static_cast<float>(m); });
 }
 
-std::vector<Launch> TouchingBodies::solve(float moved) {
+std::vector<Launch> TouchingBodies::solve(int has_moved) {
     const Segments all{&begin_, 0, 1, model_.strips.count()};
     return {launch(kernels::solve_bodies, all, lags_, first_run_, counts_, masses_, shifts_, rests_,
-                   moved, bodies_.most_runs(), lag_count_, body_count()),
+                   has_moved, bodies_.most_runs(), lag_count_, body_count()),
             launch(kernels::solve_groups, all, rests_, groups_.firsts, groups_.counts,
                    groups_.members, group_shifts_, body_count(), kInstance),
             launch(kernels::add_groups, all, shifts_, rests_, group_shifts_, groups_.leaders,
@@ -93,14 +93,14 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         int kind) {
     targets_ = &targets;
-    sums_again_ = {"momentum", kind, sum_round(positions, targets, 1.0f)};
-    return sum_round(positions, targets, 0.0f);
+    sums_again_ = {"momentum", kind, sum_round(positions, targets, 1)};
+    return sum_round(positions, targets, 0);
 }
 
 std::vector<Launch> TouchingBodies::sum_round(Buffer<float4>& positions, Buffer<float4>& targets,
-                                              float moved) {
+                                              int has_moved) {
     return {contact_.add_lags(bodies_.columns(), positions, targets, body_of_, groups_, shifts_,
-                              moved, partials_),
+                              has_moved, partials_),
             bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
 }
 

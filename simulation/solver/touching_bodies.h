@@ -29,12 +29,13 @@ public:
     const std::string& name_of_steps() const { return steps_.name; }
 
 private:
-    std::vector<Launch> sum_round(Buffer<float4>& positions, Buffer<float4>& targets, float moved);
+    std::vector<Launch> sum_round(Buffer<float4>& positions, Buffer<float4>& targets,
+                                  int has_moved);
     void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
                  int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);
-    std::vector<Launch> solve(float moved);
+    std::vector<Launch> solve(int has_moved);
     int body_count() const { return groups_.body_count(); }
 
     const Model& model_;

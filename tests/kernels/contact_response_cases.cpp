@@ -349,7 +349,7 @@ void lags_case(KernelCase& c) {
                       contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
                       contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
                       partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-                      c.random.integer(0, 1) == 0 ? 0.0f : 1.0f, c.items, kBodies, kInstance);
+                      c.random.integer(0, 1), c.items, kBodies, kInstance);
 }
 
 void bodies_case(KernelCase& c) {
@@ -363,7 +363,7 @@ void bodies_case(KernelCase& c) {
     auto& shifts = add_points(c, "shifts", c.items);
     auto& rests = c.add<float4>("rests", 3 * c.items);
     c.launch = launch(kernels::solve_bodies, c.segments, lags, first, counts, masses, shifts, rests,
-                      1.0f, kMostRuns, c.items + kMostRuns, c.items);
+                      c.random.integer(0, 1), kMostRuns, c.items + kMostRuns, c.items);
 }
 
 /// What solve_bodies leaves: positive masses, and semi-definite blocks; nothing of some bodies.

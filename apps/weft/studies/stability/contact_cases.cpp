@@ -12,8 +12,8 @@ namespace {
 
 const Bound kNoneCross{Quantity::kCrossings, 0.0, 0.0};
 
-/// Of two blocks of 0.2 m, the lower one held at its floor. The material is as stiff as the load
-/// asks for: 2 % at most.
+/// A block of 0.2 m on one twice as wide, which is held at its floor. The material is as stiff as
+/// the load asks for: 2 % at most. Without friction, so it may slide while both still swing.
 void add_columns(std::vector<Case>& cases) {
     for (const double ratio : {1e-4, 1e-2, 1e0, 1e2, 1e4}) {
         for (const Steps& steps : {kSteps[1], kSteps[2], kSteps[3], kSteps[4]}) {
@@ -61,8 +61,8 @@ Case single(const std::string& name, const std::string& scene, std::vector<Bound
     return c;
 }
 
-/// A sheet that is held all around goes up against a loose one, and takes it along. What waves in
-/// it, of 70 m/s, cannot follow stretches.
+/// A sheet that is led by its borders goes up against a loose one, and takes it along. Waves in it
+/// travel at 70 m/s: what is led faster stretches it.
 void add_meetings(std::vector<Case>& cases) {
     for (const double speed : {1.0, 10.0, 100.0}) {
         const double time = 0.2 / speed;
