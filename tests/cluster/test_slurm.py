@@ -76,10 +76,10 @@ def status(folder, index):
     return json.loads((run / "status.json").read_text()), run
 
 
-def wait_until(condition, limit=60.0):
+def wait_until(condition, limit=60.0, why=lambda: ""):
     end = time.monotonic() + limit
     while not condition():
-        assert time.monotonic() < end, "it did not come to it in time"
+        assert time.monotonic() < end, f"it did not come to it in time\n{why()}"
         time.sleep(0.1)
 
 
@@ -110,7 +110,13 @@ def test_array_with_a_member_that_diverges(folder):
     assert status(folder, 0)[0]["engine"] == "slurm"
 
 
-def test_stopped_before_the_limit_and_requeued(folder):
+def what_slurm_says(slurm, job):
+    shown = subprocess.run(["scontrol", "show", "job", job], text=True, stdout=subprocess.PIPE).stdout
+    logs = [(slurm / name).read_text()[-2000:] for name in ("slurmctld.log", "slurmd.log")]
+    return "\n".join([shown, *logs])
+
+
+def test_stopped_before_the_limit_and_requeued(slurm, folder):
     """The script that weft prints; Slurm's own wait of two minutes is cut short."""
     make(folder, LONG, "scene.substeps", "[200]")
     script = weft("batch", "sweep.toml", "--script", "slurm", cwd=folder).stdout
@@ -121,12 +127,18 @@ def test_stopped_before_the_limit_and_requeued(folder):
     wait_until(lambda: states(folder) == ["stopped"])
     assert status(folder, 0)[0]["exit_code"] == 75
 
+    asked = 0.0
+
     def begun_again():
-        subprocess.run(["scontrol", "update", f"JobId={job}", "StartTime=now"],
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        nonlocal asked
+        if time.monotonic() > asked + 2.0:  # refused while the job is completing
+            asked = time.monotonic()
+            subprocess.run(["scontrol", "update", f"JobId={job}", "StartTime=now"],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return status(folder, 0)[0]["attempts"] == 2
 
-    wait_until(begun_again)
+    # Long enough for Slurm's own wait, should it take none of these words.
+    wait_until(begun_again, 200, lambda: what_slurm_says(slurm, job))
     wait_until(lambda: states(folder) == ["finished"])
     assert hash_of(folder, 0) == whole_hash(folder)
 
