@@ -22,9 +22,10 @@
 # `<name>.oclgrind`. The interpreter is about a thousand times slower than a device, so
 # OCLGRIND_FILTER <gtest filter> chooses its small cases, and OCLGRIND_FILTER none leaves it out.
 #
-# Label `threads` has what runs on several threads at a time: what the thread sanitizer looks at. The
-# targets `threads` and `oclgrind` build the programs of those entries alone, so that a sanitizer
-# does not have to build everything.
+# Label `threads` has what runs on several threads at a time: what the thread sanitizer looks at.
+# TSAN_FILTER <gtest filter> leaves it what has several threads in it, of a test that has much else;
+# it has four times as long. The targets `threads` and `oclgrind` build the programs of those entries
+# alone, so that a sanitizer does not have to build everything.
 #
 # All take TIMEOUT <seconds> (default 300). Entries labelled `bench-smoke` run alone.
 
@@ -41,7 +42,12 @@ add_custom_target(threads)
 add_custom_target(oclgrind)
 
 function(weft_test)
-  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;OCLGRIND_FILTER;SHARDS" "LABELS;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "NAME;TIMEOUT;OCLGRIND_FILTER;TSAN_FILTER;SHARDS"
+                        "LABELS;SOURCES;LIBS" ${ARGN})
+  set(of_test "${WEFT_TEST_ENVIRONMENT}")
+  if(WEFT_SANITIZE STREQUAL "thread" AND ARG_TSAN_FILTER)
+    list(APPEND of_test GTEST_FILTER=${ARG_TSAN_FILTER})
+  endif()
   add_executable(test_${ARG_NAME} ${ARG_SOURCES})
   target_link_libraries(test_${ARG_NAME} PRIVATE ${ARG_LIBS} weft::options weft::warnings
                                                  GTest::gtest_main)
@@ -53,12 +59,13 @@ function(weft_test)
     foreach(shard RANGE ${last})
       add_test(NAME ${ARG_NAME}_${shard} COMMAND test_${ARG_NAME})
       weft_set_test_properties(${ARG_NAME}_${shard} "${ARG_LABELS}" "${ARG_TIMEOUT}")
-      set_property(TEST ${ARG_NAME}_${shard} APPEND PROPERTY ENVIRONMENT
-                   GTEST_TOTAL_SHARDS=${ARG_SHARDS} GTEST_SHARD_INDEX=${shard})
+      set_property(TEST ${ARG_NAME}_${shard} PROPERTY ENVIRONMENT
+                   ${of_test} GTEST_TOTAL_SHARDS=${ARG_SHARDS} GTEST_SHARD_INDEX=${shard})
     endforeach()
   else()
     add_test(NAME ${ARG_NAME} COMMAND test_${ARG_NAME})
     weft_set_test_properties(${ARG_NAME} "${ARG_LABELS}" "${ARG_TIMEOUT}")
+    set_property(TEST ${ARG_NAME} PROPERTY ENVIRONMENT ${of_test})
   endif()
 
   if(ARG_LABELS MATCHES "kernels|determinism" AND NOT ARG_OCLGRIND_FILTER STREQUAL "none")
@@ -125,6 +132,9 @@ endfunction()
 function(weft_set_test_properties name labels timeout)
   if(NOT timeout)
     set(timeout 300)
+  endif()
+  if(WEFT_SANITIZE STREQUAL "thread")
+    math(EXPR timeout "4 * ${timeout}")
   endif()
   set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT ${timeout}
                        ENVIRONMENT "${WEFT_TEST_ENVIRONMENT}")

@@ -23,6 +23,7 @@ constexpr double kMostMotion = 2.0;
 constexpr double kMostStrain = 10.0;
 constexpr double kVisibleStrain = 0.05;  ///< of edges, RMS
 constexpr double kVisibleStrainOfSolids = 0.02;
+constexpr double kMostHiddenStrainOfSolids = 4.0;
 constexpr double kTornStrain = 1.0;  ///< of one edge
 // What contacts have stored is seen as little in edges as it has to do with them.
 constexpr double kMostInContacts = 10.0;
@@ -76,17 +77,21 @@ double energy_of_rounding(const Model& model) {
     return sum + 0.5 * moment * (kRounding / model.h) * (kRounding / model.h);
 }
 
-/// How much more strain than there was energy for is excused: infinitely much where it is not to be
-/// seen, and less the plainer it is. Solids bend by the strain of their edges, and there is no
-/// cloth that looks as it should all the same.
+bool is_visible(const Model& model, const Strain& strain) {
+    const double visible = model.scene.cloths.empty() ? kVisibleStrainOfSolids : kVisibleStrain;
+    return strain.rms > visible || strain.most > kTornStrain;
+}
+
+/// How much more strain than there was energy for is excused: in cloth infinitely much where it is
+/// not to be seen, and less the plainer it is. Solids bend by the strain of their edges: a beam
+/// sags plainly with hardly any, and there is no cloth that looks as it should all the same.
 double most_strain(const Model& model, const Strain& strain) {
-    const bool is_cloth = !model.scene.cloths.empty();
-    const double visible = is_cloth ? kVisibleStrain : kVisibleStrainOfSolids;
-    if (strain.rms <= visible && strain.most <= kTornStrain)
-        return std::numeric_limits<double>::infinity();
-    if (!is_cloth) return kMostMotion;
-    return std::clamp(kMostStrain * visible / std::max(strain.rms, visible), kMostMotion,
-                      kMostStrain);
+    if (model.scene.cloths.empty()) {
+        return is_visible(model, strain) ? kMostMotion : kMostHiddenStrainOfSolids;
+    }
+    if (!is_visible(model, strain)) return std::numeric_limits<double>::infinity();
+    return std::clamp(kMostStrain * kVisibleStrain / std::max(strain.rms, kVisibleStrain),
+                      kMostMotion, kMostStrain);
 }
 
 }  // namespace
@@ -134,7 +139,7 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double enough = had + small_ + energy_of_rounding(model);
     if (is_fine(enough)) return std::nullopt;
     const bool explodes = motion > kExplodingMotion * enough ||
-                          (strained > kExplodingStrain * enough && std::isfinite(most));
+                          (strained > kExplodingStrain * enough && is_visible(model, strain));
     return EnergyAlarm{
         fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
                     "{:.3g} % RMS), where {:.3g} J were to be had",

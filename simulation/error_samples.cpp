@@ -11,7 +11,8 @@ namespace weft {
 
 namespace {
 
-constexpr double kTouch = 1e-4;  ///< [m] from where an obstacle keeps a vertex
+constexpr double kVisible = 0.05;  ///< of strain
+constexpr double kTouch = 1e-4;    ///< [m] from where an obstacle keeps a vertex
 
 /// What an iteration takes, as a part of what an estimate takes.
 double cost_of_iteration(const SolverSettings& solver) {
@@ -29,8 +30,8 @@ double cost_of_iteration(const SolverSettings& solver) {
     return 0.015;
 }
 
-/// So far stretched, cloth looks like rubber. known: what there is already
-double plain_strain(double known) { return std::max(0.2, 1.5 * known); }
+/// Further stretched than what there is already.
+bool is_stretched(double strain, double known) { return strain > 1.5 * known; }
 
 }  // namespace
 
@@ -63,7 +64,9 @@ bool ErrorSamples::wants(const Model& model, int frame) const {
     if (model.families.empty()) return false;
     constexpr int kOften = 4;  // where iterations depend on it
     const bool has_tolerance = model.scene.solver.tolerance > 0.0;
-    if (!has_tolerance && last_strain_ > plain_strain(most_strain_)) return true;
+    if (!has_tolerance && last_strain_ > kVisible && is_stretched(last_strain_, most_strain_)) {
+        return true;
+    }
     int every = frames_per_estimate(model);
     if (has_tolerance) every = std::min(every, kOften);
     return frame % every == every - 1 || frame == model.scene.frames - 1;
@@ -79,18 +82,22 @@ void ErrorSamples::begin(const Model& model, double time) {
                         {}};
 }
 
-bool ErrorSamples::doubts(double strain, double error) const {
-    constexpr double kHardlySolved = 0.1;
-    return strain > plain_strain(first_strain_) && error > kHardlySolved;
+bool ErrorSamples::doubts(double strain, double energy, const StepEstimate& estimate) const {
+    constexpr double kPart = 0.05;
+    // As energies go with the square of strain.
+    const double part = std::min(estimate.left / energy, 1.0);
+    return is_stretched(strain, first_strain_) && part > kPart &&
+           strain * std::sqrt(part) > kVisible;
 }
 
-std::optional<double> ErrorSamples::end(const Model& model, std::vector<FrozenContact> contacts) {
+std::optional<StepEstimate> ErrorSamples::end(const Model& model,
+                                              std::vector<FrozenContact> contacts) {
     is_begun_ = false;
     if (!error_) error_ = std::make_unique<StepError>(model.scene, threads_);
     ends_->reached = model.in_scene_order(model.positions->span());
     ends_->held = held_by_obstacles(model, ends_->time + model.h);
     ends_->contacts = std::move(contacts);
-    return error_->of(*ends_);
+    return error_->estimate(*ends_);
 }
 
 }  // namespace weft

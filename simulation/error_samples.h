@@ -24,15 +24,15 @@ public:
     bool is_begun() const { return is_begun_; }
     /// The model is at its end; it was begun. contacts: as SubstepEnds has them. None: see
     /// StepError
-    std::optional<double> end(const Model& model, std::vector<FrozenContact> contacts);
+    std::optional<StepEstimate> end(const Model& model, std::vector<FrozenContact> contacts);
     // Of edges, RMS. Where they become plainly longer, frames are chosen for that, too.
     /// Before anything has happened: nobody has to answer for that.
     void expect_strain(double strain) { first_strain_ = last_strain_ = most_strain_ = strain; }
     /// At a frame's end.
     void note_strain(double strain) { last_strain_ = strain; }
-    /// Whether strain is plain to see in steps that are hardly solved: then it need not be the
-    /// material that gives way. error: of a step, relative
-    bool doubts(double strain, double error) const;
+    /// Whether strain is plain to see that a solved step would not have left: then it is not the
+    /// material that gives way. energy: of all strain [J]
+    bool doubts(double strain, double energy, const StepEstimate& estimate) const;
 
     /// What the last estimate was made of.
     const SubstepEnds& last() const { return *ends_; }

@@ -57,12 +57,13 @@ int host_threads(const std::vector<std::unique_ptr<Device>>& devices) {
 
 double strain_of(const Model& model) { return model.edges->strain(model.positions->span()).rms; }
 
-Alarm doubt_of(const Strain& strain, double error) {
-    return {Alarm::Kind::kDoubt,
-            fmt::format("edges are strained by {:.3g} % RMS in steps that are hardly solved "
-                        "(relative error {:.2g})",
-                        100.0 * strain.rms, error),
-            {}};
+Alarm doubt_of(const Watch::Look& look, const StepEstimate& estimate) {
+    return {
+        Alarm::Kind::kDoubt,
+        fmt::format("edges are strained by {:.3g} % RMS in steps that are hardly solved ({:.2g} "
+                    "J of strain, of which a single step leaves {:.2g} J too much)",
+                    100.0 * look.strain.rms, look.entry.energies.strain(), estimate.left),
+        {}};
 }
 
 void record(const Watch::Look& look, FrameRecord& frame) {
@@ -368,10 +369,11 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     const double end = time() + model_->scene.dt;
     const Watch::Look look = watch_->look(*model_, *start_, time(), end, stored_in_contacts());
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
-    const auto error = may_repeat ? estimate() : std::nullopt;
-    if (error && iterates_more(*error)) return false;
-    if (error && !look.alarm && samples_->doubts(look.strain.rms, *error) &&
-        !goes_on_with(doubt_of(look.strain, *error), step)) {
+    const auto estimated = may_repeat ? estimate() : std::nullopt;
+    if (estimated && iterates_more(estimated->relative_error)) return false;
+    if (estimated && !look.alarm &&
+        samples_->doubts(look.strain.rms, look.entry.energies.strain(), *estimated) &&
+        !goes_on_with(doubt_of(look, *estimated), step)) {
         return false;
     }
     if (samples_) samples_->note_strain(look.strain.rms);
@@ -380,12 +382,12 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     record(look, frame);
     frame.substeps = static_cast<std::uint32_t>(model_->scene.substeps);
     frame.iterations = static_cast<std::uint32_t>(model_->scene.solver.iterations);
-    if (error) frame.relative_error = *error;
+    if (estimated) frame.relative_error = estimated->relative_error;
     return true;
 }
 
 /// Of the frame that has just run. None: its last substep is no sample.
-std::optional<double> Simulation::estimate() {
+std::optional<StepEstimate> Simulation::estimate() {
     if (!samples_ || !samples_->is_begun()) return std::nullopt;
     return samples_->end(*model_, contacts());
 }

@@ -20,6 +20,7 @@
 namespace weft {
 
 class ErrorSamples;
+struct StepEstimate;
 class Watch;
 struct Alarm;
 struct Energies;
@@ -157,7 +158,7 @@ private:
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
     bool accepts(const Step& step, bool may_repeat, FrameRecord& frame);
-    std::optional<double> estimate();
+    std::optional<StepEstimate> estimate();
     bool iterates_more(double error);
     void iterate_less(double error);
     void tell_of_tolerance(double error);

@@ -67,6 +67,11 @@ StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
 StepError::~StepError() = default;
 
 std::optional<double> StepError::of(const SubstepEnds& ends) {
+    const auto estimated = estimate(ends);
+    return estimated ? std::optional(estimated->relative_error) : std::nullopt;
+}
+
+std::optional<StepEstimate> StepError::estimate(const SubstepEnds& ends) {
     constexpr double kLostInRounding = 10.0;
     start_at(ends);
     double start = 0.0;
@@ -90,9 +95,9 @@ std::optional<double> StepError::of(const SubstepEnds& ends) {
     const double least = kLostInRounding * rounding;
     const double left = reached - minimum;
     const double error = left / std::max(start - minimum, least);
-    if (left <= least && start - minimum <= least) return 0.0;
+    if (left <= least && start - minimum <= least) return StepEstimate{0.0, 0.0};
     if (!std::isfinite(error)) return std::nullopt;
-    return error;
+    return StepEstimate{error, left};
 }
 
 void StepError::start_at(const SubstepEnds& ends) {

@@ -28,6 +28,12 @@ struct SubstepEnds {
         contacts{};  ///< that it found where it began; corners in scene order
 };
 
+/// What is said of one substep.
+struct StepEstimate {
+    double relative_error;
+    double left;  ///< E(x) - E* [J]
+};
+
 /// How far a substep was solved: an estimate of the relative error that `weft error` measures,
 ///
 ///     (E(x) - E*) / (E0 - E*),    E0 at x~,
@@ -41,8 +47,10 @@ public:
     StepError(const Scene& scene, int threads);
     ~StepError();
 
-    /// 0 where both x~ and x are as near to the minimum as single precision can tell. None where
-    /// the numbers have no meaning.
+    /// Nothing where both x~ and x are as near to the minimum as single precision can tell. None
+    /// where the numbers have no meaning.
+    std::optional<StepEstimate> estimate(const SubstepEnds& ends);
+    /// Its relative error alone.
     std::optional<double> of(const SubstepEnds& ends);
 
 private:

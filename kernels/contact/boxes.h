@@ -74,6 +74,12 @@ WEFT_KERNEL(enclose_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL cons
     store4(high, i, with_w(box.high, reach));
 }
 
+/// What items that have fewer than others read beside them, for nothing: an entry of their own, as
+/// nobody else may be writing there meanwhile.
+WEFT_INLINE whole first_of(whole begin, whole count) {
+    return count > splat_whole(0) ? begin : splat_whole(0);
+}
+
 /// Boxes around boxes.
 /// child_begin          [items + 1] where the children of each begin
 /// child_low, child_high  boxes
@@ -83,11 +89,12 @@ WEFT_KERNEL(enclose_boxes, WEFT_GLOBAL const int* child_begin, WEFT_GLOBAL const
             WEFT_GLOBAL float4* high) {
     const whole begin = load_whole(child_begin, i);
     const whole count = load_whole(child_begin, column(i, 1, 1)) - begin;
+    const whole own = first_of(begin, count);
     const int longest = largest_whole(count);
     real_box box = empty_box();
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer child = address(on ? begin + splat_whole(k) : splat_whole(0));
+        const integer child = address(on ? begin + splat_whole(k) : own);
         real_box of_child;
         of_child.low = xyz(gather4(child_low, child));
         of_child.high = xyz(gather4(child_high, child));
@@ -147,6 +154,7 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const f
     const real one = splat(1.0f);
     const whole begin = load_whole(face_begin, i);
     const whole count = load_whole(face_begin, column(i, 1, 1)) - begin;
+    const whole own = first_of(begin, count);
     const real limit = load(quiet, i);
     // What is not quiet by itself need not be looked at, if nothing is foreseen.
     const real apart = splat(WEFT_SPREAD_SHARE) * limit;
@@ -163,7 +171,7 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const f
     for (int pass = 0; pass < 2; ++pass) {
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const whole entry = on ? begin + splat_whole(k) : splat_whole(0);
+            const whole entry = on ? begin + splat_whole(k) : own;
             const real4 a = gather_corner(anchors, corners, entry);
             const real4 b = gather_corner(anchors, corners, entry + splat_whole(face_count));
             const real4 c = gather_corner(anchors, corners, entry + splat_whole(2 * face_count));
