@@ -15,9 +15,12 @@
 // by the others. So the group takes one more step as a whole, unseen by contacts within it; where
 // they are all that it has, its momentum is exact.
 //
-// Friction goes by how hard contacts press, and what too few iterations leave of that may be many
-// times what the step takes from it: what should slide would stick. So with friction there are
-// several rounds, each as if bodies were already where those before it lead them.
+// There are several rounds of that, each as if bodies were already where those before it lead them.
+// What too few iterations leave in single contacts may be hundreds of times what a light body needs
+// to be carried. The bound above takes it for springs that pull as well as push: where one corner
+// presses too hard, the others seem to hold it down, and as their normals differ a little, what is
+// left of these forces leads aside. Later rounds see which contacts have opened, and undo that. And
+// friction goes by how hard contacts press: in one round, what should slide would stick.
 //
 // All that is in units of M / h^2, in four parts: float4
 //   0  the lag less h^2/M G [m]; block xx

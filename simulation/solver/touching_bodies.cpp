@@ -9,7 +9,7 @@ namespace weft {
 namespace {
 
 constexpr int kParts = WEFT_BODY_PARTS;
-constexpr int kRoundsWithFriction = 12;
+constexpr int kRounds = 12;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -104,12 +104,10 @@ std::vector<Launch> TouchingBodies::sum_round(Buffer<float4>& positions, Buffer<
             bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
 }
 
-/// Without friction a second round would find next to nothing.
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
                                 const std::vector<Region>& regions, Buffer<float4>& positions,
                                 int iteration) {
-    const int rounds = contact_.rubbing().friction > 0.0 ? kRoundsWithFriction : 1;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
         for (const Region& region : regions) {
             add_sum(step, round == 0 ? body : sums_again_, region, positions, iteration);
         }
