@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/solver/solver.h"
 #include "simulation/step_trials.h"
 
 namespace weft {
@@ -26,12 +25,6 @@ std::optional<int> find(StepTrials& trials, Method method, int first, int most, 
     return std::nullopt;
 }
 
-bool may_take_newton(Scene scene) {
-    if (scene.solver.method == Method::kNewton) return false;
-    scene.solver.method = Method::kNewton;
-    return why_no_contact(scene).empty();
-}
-
 }  // namespace
 
 std::string advise_tolerance(const Scene& scene, const SubstepEnds& ends) {
@@ -45,7 +38,7 @@ std::string advise_tolerance(const Scene& scene, const SubstepEnds& ends) {
             ways.push_back(
                 fmt::format("{} substeps of {} iterations", factor * scene.substeps, *enough));
         }
-        if (factor > 1 || !may_take_newton(scene)) continue;
+        if (factor > 1 || scene.solver.method == Method::kNewton) continue;
         if (const auto enough = find(trials, Method::kNewton, 1, kMostOfNewton, solver.tolerance)) {
             ways.push_back(
                 fmt::format("{} substeps of {} iterations by newton", scene.substeps, *enough));

@@ -18,7 +18,6 @@
 #include "runtime/device_list.h"
 #include "runtime/error.h"
 #include "simulation/scene/method.h"
-#include "simulation/solver/solver.h"
 
 namespace weft {
 
@@ -39,20 +38,6 @@ Scene scene_of(const ErrorOptions& options) {
                         ": weft error --trajectory does not know [contact] yet");
     }
     return scene;
-}
-
-/// All that can do the scene.
-std::vector<std::string> solvers_for(const ErrorOptions& options) {
-    Scene scene = scene_of(options);
-    std::vector<std::string> names = method_names();
-    std::string why;
-    std::erase_if(names, [&](const std::string& name) {
-        scene.solver.method = method_named(name);
-        why = why_no_contact(scene);
-        return !why.empty();
-    });
-    if (names.empty()) throw UserError(options.run.scene + ": " + why);
-    return names;
 }
 
 std::filesystem::path make_folder(const ErrorOptions& options) {
@@ -100,7 +85,7 @@ void make_sweep_of(const ErrorOptions& options) {
 void run_error(ErrorOptions options) {
     if (options.devices.empty()) options.devices = {hybrid_devices()};
     if (options.plans.empty()) options.plans = {"auto"};
-    if (options.solvers.empty()) options.solvers = solvers_for(options);
+    if (options.solvers.empty()) options.solvers = method_names();
     if (options.as_sweep) return make_sweep_of(options);
     const std::filesystem::path folder = make_folder(options);
     if (options.trajectory)

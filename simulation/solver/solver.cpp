@@ -14,31 +14,7 @@
 
 namespace weft {
 
-namespace {
-
-void refuse_contact(const Scene& scene) {
-    const std::string why = why_no_contact(scene);
-    if (why.empty()) return;
-    throw UserError((scene.path.empty() ? "the scene" : scene.path) + ": " + why);
-}
-
-}  // namespace
-
-std::string why_no_contact(const Scene& scene) {
-    if (!scene.contact) return {};
-    const bool rubs = scene.contact->friction.value_or(0.0) > 0.0;
-    const Method method = scene.solver.method;
-    if (rubs && method == Method::kNewton) {
-        return fmt::format(
-            "contact.friction is not there yet for {}; leave it out, or take "
-            "solver.method = \"vbd\", \"sosd\", \"jpgd\" or \"xpbd\"",
-            name_of(method));
-    }
-    return {};
-}
-
 std::unique_ptr<Solver> make_solver(Model& model) {
-    refuse_contact(model.scene);
     switch (model.scene.solver.method) {
         case Method::kXpbd:
             return make_xpbd_solver(model);
@@ -55,7 +31,6 @@ std::unique_ptr<Solver> make_solver(Model& model) {
 }
 
 std::unique_ptr<Solver> make_solver_by_kinds(Model& model) {
-    refuse_contact(model.scene);
     const Method method = model.scene.solver.method;
     if (method == Method::kXpbd) return make_xpbd_solver(model, XpbdTasks::kByFamily);
     throw UserError(

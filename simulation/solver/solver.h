@@ -42,10 +42,7 @@ public:
     virtual Asynchrony asynchrony() const { return {}; }
 };
 
-/// Why the scene's solver cannot do what its [contact] asks for; empty: it can.
-std::string why_no_contact(const Scene& scene);
-
-/// The solver that the model's scene names. Throws UserError where it cannot do the scene.
+/// The solver that the model's scene names.
 std::unique_ptr<Solver> make_solver(Model& model);
 
 /// The same, with a task for each kind of work in an iteration (XPBD: each family of elements, and

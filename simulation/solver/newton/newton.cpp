@@ -35,7 +35,7 @@ enum Kind {
 
 constexpr int kCoarseEvery = 5;  ///< iterations
 constexpr float kSlack = 1.00001f;
-constexpr float kSlackWithObstacles = 2.0f;
+constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles, or friction, which E does not count
 
 /// Sweeps of vertex block descent (sweeps.h).
 struct Smoother {
@@ -186,7 +186,7 @@ private:
         decide_ = {"decide",
                    kDecide,
                    {launch(kernels::decide_newton, first, control_, energy_.partials(), partials,
-                           model_.obstacles ? kSlackWithObstacles : kSlack, kIteration)}};
+                           is_pushed() ? kSlackWithPushes : kSlack, kIteration)}};
         // The state comes last, and is what is kept; after a bad step the next system is that of
         // the state as it is.
         revert_ = {"revert",
@@ -198,6 +198,10 @@ private:
         }
         // For sweeps that come next.
         if (contact_ != nullptr) contact_->add_snapshot(revert_.launches, *model_.positions);
+    }
+
+    bool is_pushed() const {
+        return model_.obstacles || (contact_ != nullptr && contact_->rubbing().friction > 0.0);
     }
 
     Launch copy(Buffer<float4>& from, Buffer<float4>& to) {

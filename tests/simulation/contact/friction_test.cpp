@@ -17,7 +17,7 @@ constexpr double kGravity = 9.81;
 constexpr double kCreepSpeed = 1e-3;  ///< [m/s] below which friction sticks
 
 /// A patch of cloth on a slope of that tangent.
-Scene slope(double tangent, const std::string& friction, int frames) {
+Scene slope(double tangent, const std::string& friction, int frames, Method method = Method::kVbd) {
     Scene scene = parse_scene(R"(
 [scene]
 frames = 1
@@ -47,6 +47,8 @@ stretch = { stiffness = 20.0 }
     const double across = 1.0 / std::sqrt(1.0 + tangent * tangent);
     scene.gravity = {kGravity * tangent * across, -kGravity * across, 0.0};
     scene.frames = frames;
+    scene.solver.method = method;
+    if (method == Method::kNewton) scene.solver.iterations = 8;
     return scene;
 }
 
@@ -65,9 +67,11 @@ struct Patch {
     ManualRun run;
 };
 
-TEST(Friction, SlidesAsFastAsCoulombSays) {
+class Friction : public testing::TestWithParam<Method> {};
+
+TEST_P(Friction, SlidesAsFastAsCoulombSays) {
     for (const auto& [tangent, coefficient] : {std::pair(0.6, 0.3), std::pair(0.35, 0.3)}) {
-        Patch patch(slope(tangent, fmt::format("friction = {}\n", coefficient), 0));
+        Patch patch(slope(tangent, fmt::format("friction = {}\n", coefficient), 0, GetParam()));
         patch.go(6);
         const double before = patch.velocity().x;
         patch.go(18);
@@ -77,9 +81,9 @@ TEST(Friction, SlidesAsFastAsCoulombSays) {
     }
 }
 
-TEST(Friction, CreepsNoFasterThanItIsSmoothed) {
+TEST_P(Friction, CreepsNoFasterThanItIsSmoothed) {
     for (const double share : {0.25, 0.5, 0.8}) {
-        Patch patch(slope(share * 0.5, "friction = 0.5\n", 0));
+        Patch patch(slope(share * 0.5, "friction = 0.5\n", 0, GetParam()));
         patch.go(12);
         const double before = patch.place().x;
         patch.go(12);
@@ -89,16 +93,19 @@ TEST(Friction, CreepsNoFasterThanItIsSmoothed) {
     }
 }
 
-TEST(Friction, NoneLetsSlideAndNoneDriftsOnTheLevel) {
-    Patch sliding(slope(0.2, "", 0));
+TEST_P(Friction, NoneLetsSlideAndNoneDriftsOnTheLevel) {
+    Patch sliding(slope(0.2, "", 0, GetParam()));
     sliding.go(12);
     const double across = 1.0 / std::sqrt(1.04);
     EXPECT_NEAR(sliding.velocity().x, 0.2 * kGravity * across * 0.2, 1e-3);
-    Patch resting(slope(0.0, "", 0));
+    Patch resting(slope(0.0, "", 0, GetParam()));
     resting.go(60);
     EXPECT_LT(std::abs(resting.place().x + 0.1), 1e-4);
     EXPECT_LT(std::abs(resting.place().z - 0.003), 3e-4);
 }
+
+INSTANTIATE_TEST_SUITE_P(Methods, Friction, testing::Values(Method::kVbd, Method::kNewton),
+                         name_of_method);
 
 }  // namespace
 }  // namespace weft::test

@@ -145,9 +145,7 @@ TEST_P(Unconverged, PairsFallFreely) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Unconverged,
-                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd),
-                         name_of_method);
+INSTANTIATE_TEST_SUITE_P(Methods, Unconverged, kMethods, name_of_method);
 
 }  // namespace
 }  // namespace weft::test

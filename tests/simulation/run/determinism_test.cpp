@@ -42,6 +42,7 @@ const TestScene kScenes[] = {
     {"SosdTouching", kTouching, Method::kSosd, "de020ae12271c7cd25777af6275cc157"},
     {"JpgdTouching", kTouching, Method::kJpgd, "b6bbcc41c58293e3c809f032e38f1516"},
     {"NewtonTouching", kTouching, Method::kNewton, "1230b3317262a2cae010d3f0dc40fe37"},
+    {"NewtonRubbing", kRubbing, Method::kNewton, "771f566cd9fae30a9964453802cb207c"},
     {"XpbdTouching", kTouching, Method::kXpbd, "7e58a455b1e9110ae45acd1366d5ddc5"},
     {"SosdEverything", kEverything, Method::kSosd, "ed15a338b25fa86189688396c68e0c89"},
     {"SosdSolids", kSolids, Method::kSosd, "702bcf436c5866179943171afbf2c300"},
