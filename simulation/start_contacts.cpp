@@ -150,37 +150,16 @@ struct Piece {
     Bounds box;
 };
 
-/// Vertices of the same piece have the same root.
-class Roots {
-public:
-    explicit Roots(int count) : parents_(static_cast<std::size_t>(count)) {
-        for (int v = 0; v < count; ++v) parents_[static_cast<std::size_t>(v)] = v;
-    }
-    int of(int v) {
-        while (parent(v) != v) v = parent(v) = parent(parent(v));
-        return v;
-    }
-    void join(int a, int b) {
-        a = of(a);
-        b = of(b);
-        parent(std::max(a, b)) = std::min(a, b);
-    }
-
-private:
-    int& parent(int v) { return parents_[static_cast<std::size_t>(v)]; }
-    std::vector<int> parents_;
-};
-
 std::vector<Piece> pieces_of(const Model& model, const StartSurface& start) {
-    Roots roots(model.vertex_count());
+    VertexSets sets(model.vertex_count());
     for (const auto& t : model.triangles) {
-        roots.join(t[0], t[1]);
-        roots.join(t[1], t[2]);
+        sets.unite(t[0], t[1]);
+        sets.unite(t[1], t[2]);
     }
     std::vector<int> number(static_cast<std::size_t>(model.vertex_count()), -1);
     std::vector<Piece> pieces;
     for (int t = 0; t < static_cast<int>(model.triangles.size()); ++t) {
-        const int root = roots.of(model.triangles[static_cast<std::size_t>(t)][0]);
+        const int root = sets.least(model.triangles[static_cast<std::size_t>(t)][0]);
         int& piece = number[static_cast<std::size_t>(root)];
         const Bounds box = start.surface().bounds(t);
         if (piece < 0) {

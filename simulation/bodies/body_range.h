@@ -20,6 +20,8 @@ struct BodyRange {
     int first_vertex = 0;
     int vertex_count = 0;
     NamedVertices parts{};  ///< by the body's own numbers
+    /// [vertices of its file] the body's own numbers, where some are welded; empty: as in the file
+    std::vector<int> welded{};
 
     /// A vertex by the body's own number.
     SceneVertex vertex(int own) const { return SceneVertex{first_vertex + own}; }

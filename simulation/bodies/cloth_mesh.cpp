@@ -4,6 +4,7 @@
 
 #include "runtime/error.h"
 #include "simulation/bodies/selection.h"
+#include "simulation/bodies/welds.h"
 #include "simulation/mesh/generators.h"
 #include "simulation/mesh/mesh_checks.h"
 #include "simulation/mesh/obj_reader.h"
@@ -21,7 +22,6 @@ TriangleMesh read_checked(const MeshFile& file, Warnings& warnings) {
                                     path, mesh.vertex_count(), kMaxVertices));
     }
     drop_duplicates(mesh, warnings);
-    warn_of_odd_topology(mesh, warnings);
     return mesh;
 }
 
@@ -43,6 +43,8 @@ TriangleMesh build_cloth_mesh(const Cloth& cloth, Warnings& warnings) {
     for (auto& corners : mesh.rest) {
         for (Vec3& corner : corners) corner = cloth.transform.scale.x * corner;
     }
+    weld_cloth(mesh, cloth, warnings);
+    if (std::holds_alternative<MeshFile>(cloth.shape)) warn_of_odd_topology(mesh, warnings);
     check_areas(mesh);
     return mesh;
 }
@@ -51,7 +53,7 @@ std::vector<int> pinned_vertices(const Cloth& cloth, const PinGroup& pins,
                                  const TriangleMesh& mesh) {
     return selected_vertices(pins, cloth.shape, mesh.positions,
                              pins.parts.empty() ? NamedVertices{} : named_parts(mesh),
-                             fmt::format("pins of cloth '{}'", cloth.name));
+                             fmt::format("pins of cloth '{}'", cloth.name), mesh.welded);
 }
 
 }  // namespace weft

@@ -7,13 +7,14 @@
 
 namespace weft {
 
-/// Generates or reads a mesh of triangles, and checks it. Throws UserError; adds to `warnings`.
+/// Generates or reads a mesh of triangles, without the second of two equal ones. Throws UserError;
+/// adds to `warnings`.
 TriangleMesh make_triangle_mesh(const Shape& shape, Warnings& warnings);
 
-/// Generates or reads the cloth's mesh, checks it, and places it in the world (rest shape = shape
-/// at time 0, unless a file has it). A vertex that no triangle uses stays in the order, at its
-/// place, without mass: give it no inverse mass, so that it never moves. Throws UserError; adds to
-/// `warnings`.
+/// Generates or reads the cloth's mesh, places it in the world (rest shape = shape at time 0,
+/// unless a file has it), welds it where the scene says so, and checks it. A vertex that no
+/// triangle uses stays in the order, at its place, without mass: give it no inverse mass, so that
+/// it never moves. Throws UserError; adds to `warnings`.
 TriangleMesh build_cloth_mesh(const Cloth& cloth, Warnings& warnings);
 
 /// The vertices of one pin group, ascending, each once. `mesh` is what build_cloth_mesh() gave.

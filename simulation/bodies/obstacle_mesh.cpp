@@ -14,6 +14,7 @@ namespace weft {
 /// With frames, the start is the first of them.
 TriangleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warnings) {
     TriangleMesh mesh = make_triangle_mesh(obstacle.shape, warnings);
+    if (std::holds_alternative<MeshFile>(obstacle.shape)) warn_of_odd_topology(mesh, warnings);
     place(mesh.positions, obstacle.transform);
     auto frames = read_obstacle_frames(obstacle, mesh);
     if (!frames.empty()) mesh.positions = std::move(frames.front());

@@ -96,18 +96,17 @@ void add_part(const std::string& part, const NamedVertices& parts, const std::st
 
 std::vector<int> selected_vertices(const Selection& selection, const Shape& shape,
                                    std::span<const Vec3> positions, const NamedVertices& parts,
-                                   const std::string& whose) {
+                                   const std::string& whose, std::span<const int> welded) {
     const std::string where = fmt::format("{}: {}", selection.where, whose);
-    std::vector<int> vertices;
+    const std::size_t count = welded.empty() ? positions.size() : welded.size();
     for (const int vertex : selection.vertices) {
-        if (vertex < 0 || static_cast<std::size_t>(vertex) >= positions.size()) {
-            throw UserError(
-                fmt::format("{}: vertex {} is out of range: the mesh has {} vertices, "
-                            "counted from 0",
-                            where, vertex, positions.size()));
-        }
-        vertices.push_back(vertex);
+        if (vertex >= 0 && static_cast<std::size_t>(vertex) < count) continue;
+        throw UserError(
+            fmt::format("{}: vertex {} is out of range: the mesh has {} vertices, "
+                        "counted from 0",
+                        where, vertex, count));
     }
+    std::vector<int> vertices = listed_vertices(selection, welded);
     for (const std::string& corner : selection.corners) {
         vertices.push_back(corner_vertex(shape, corner));
     }
@@ -124,6 +123,18 @@ std::vector<int> selected_vertices(const Selection& selection, const Shape& shap
     for (const Box3& box : selection.boxes) add_box(box, where, positions, vertices);
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+bool lists_vertices_alone(const Selection& s) {
+    return s.edges.empty() && s.corners.empty() && s.rims.empty() && s.parts.empty() &&
+           s.boxes.empty();
+}
+
+std::vector<int> listed_vertices(const Selection& selection, std::span<const int> welded) {
+    std::vector<int> vertices = selection.vertices;
+    if (welded.empty()) return vertices;
+    for (int& vertex : vertices) vertex = welded[static_cast<std::size_t>(vertex)];
     return vertices;
 }
 

@@ -1,39 +1,16 @@
 #include "simulation/contact/knots.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "simulation/families/convert.h"
+#include "simulation/mesh/vertex_sets.h"
 
 namespace weft {
 
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Sets that grow together; the least vertex of each names it.
-class Sets {
-public:
-    explicit Sets(int vertices) : parent_(at(vertices)) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-    int least(int vertex) {
-        while (parent_[at(vertex)] != vertex) {
-            parent_[at(vertex)] = parent_[at(parent_[at(vertex)])];
-            vertex = parent_[at(vertex)];
-        }
-        return vertex;
-    }
-    void unite(int a, int b) {
-        a = least(a);
-        b = least(b);
-        parent_[at(std::max(a, b))] = std::min(a, b);
-    }
-
-private:
-    std::vector<int> parent_;
-};
 
 /// Edges of triangles, lower vertex first: their springs tie nothing together.
 std::set<std::pair<int, int>> edges_of(const Model& model) {
@@ -52,7 +29,7 @@ bool has_ties(const Scene& scene) { return !scene.seams.empty() || !scene.attach
 }  // namespace
 
 std::vector<int> knots_of(const Model& model, double thickness) {
-    Sets sets(model.vertex_count());
+    VertexSets sets(model.vertex_count());
     if (has_ties(model.scene)) {
         const auto edges = edges_of(model);
         const auto distance = [&](int a, int b) {

@@ -112,7 +112,8 @@ void check_areas(const TriangleMesh& mesh) {
         throw UserError(fmt::format(
             "{}: degenerate triangle over the vertices {}, {}, {} (counted from 1): it has no area "
             "in single precision; its first corner is at ({}, {}, {})",
-            mesh.source, a + 1, b + 1, c + 1, p.x, p.y, p.z));
+            mesh.source, mesh.number_in_file(a) + 1, mesh.number_in_file(b) + 1,
+            mesh.number_in_file(c) + 1, p.x, p.y, p.z));
     }
     for (std::size_t t = 0; t < mesh.rest.size(); ++t) {
         const auto& [a, b, c] = mesh.rest[t];
@@ -163,7 +164,8 @@ void warn_of_odd_topology(const TriangleMesh& mesh, Warnings& warnings) {
             fmt::format("{}: {} edges have more than two triangles and get no "
                         "bending, the first joins the vertices {} and {} (counted "
                         "from 1)",
-                        mesh.source, crowded.count, crowded.first[0] + 1, crowded.first[1] + 1));
+                        mesh.source, crowded.count, mesh.number_in_file(crowded.first[0]) + 1,
+                        mesh.number_in_file(crowded.first[1]) + 1));
     }
     std::vector<char> used(mesh.positions.size(), 0);
     for (const auto& triangle : mesh.triangles) {
@@ -175,7 +177,7 @@ void warn_of_odd_topology(const TriangleMesh& mesh, Warnings& warnings) {
     warnings.push_back(
         fmt::format("{}: {} vertices belong to no triangle and stay where they are, "
                     "the first is vertex {} (counted from 1)",
-                    mesh.source, lonely, first + 1));
+                    mesh.source, lonely, mesh.number_in_file(static_cast<int>(first)) + 1));
 }
 
 }  // namespace weft

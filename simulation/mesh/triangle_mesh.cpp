@@ -24,6 +24,11 @@ std::array<Vec3, 3> TriangleMesh::rest_of(std::size_t triangle) const {
     return {at(a), at(b), at(c)};
 }
 
+int TriangleMesh::number_in_file(int vertex) const {
+    if (welded.empty()) return vertex;
+    return static_cast<int>(std::find(welded.begin(), welded.end(), vertex) - welded.begin());
+}
+
 NamedVertices named_parts(const TriangleMesh& mesh) {
     NamedVertices parts;
     for (const MeshPart& part : mesh.parts) {

@@ -33,9 +33,13 @@ struct TriangleMesh {
     /// together (flat panels). Empty: as they are in `positions`.
     std::vector<std::array<Vec3, 3>> rest{};
     std::string rest_source{};  ///< file name of the rest shape
+    /// [vertices of the file] which vertex each has become; empty: itself. See weld.h.
+    std::vector<int> welded{};
 
     /// The corners of a triangle at rest [m].
     std::array<Vec3, 3> rest_of(std::size_t triangle) const;
+    /// A vertex's number in the file; of a welded one the first that it had there.
+    int number_in_file(int vertex) const;
     int vertex_count() const { return static_cast<int>(positions.size()); }
     int triangle_count() const { return static_cast<int>(triangles.size()); }
 };

@@ -53,7 +53,10 @@ void add_mass(Gathered& all, const std::array<int, arity>& element, int first, d
 void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& warnings) {
     const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
     const int first = add_body(all, "cloth", cloth, mesh);
-    if (std::holds_alternative<MeshFile>(cloth.shape)) all.bodies.back().parts = named_parts(mesh);
+    if (std::holds_alternative<MeshFile>(cloth.shape)) {
+        all.bodies.back().parts = named_parts(mesh);
+        all.bodies.back().welded = mesh.welded;
+    }
     add_surface(all, mesh.triangles, first);
     const RestShape rest(mesh);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

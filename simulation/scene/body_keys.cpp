@@ -254,6 +254,10 @@ TableKeys cloth_keys() {
                  .range = positive_up_to(1e6)},
                 damping_key(),
                 pins_key(cloth_pins_table()),
+                {.name = "weld",
+                 .type = Type::kBoolean,
+                 .help = "of a mesh: vertices of its border that lie in one place become one",
+                 .fallback = false},
             },
         .exactly_one_of = {"grid", "cylinder", "mesh"},
     };
@@ -421,15 +425,17 @@ const TableKeys& seam_table() {
                       "listed one by one"),
         seam_side_key("b", "the other edge, of the same cloth or another one"),
         {.name = "stiffness",
-         .help = "of each stitch",
+         .help = "of each stitch; with time, or instead of both weld",
          .unit = "N/m",
-         .required = true,
          .range = positive()},
         {.name = "time",
          .help = "until the edges are together; then the stitches hold",
          .unit = "s",
-         .required = true,
          .range = {.low = 1e-6, .high = 1e6}},
+        {.name = "weld",
+         .type = Type::kBoolean,
+         .help = "the edges, of one cloth and in one place at time 0, become one edge",
+         .fallback = false},
     }};
     return table;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "simulation/scene/elements/element_keys.h"
@@ -259,6 +260,11 @@ const Cloth& named_cloth(const Node& table, const Scene& scene) {
     throw value_error(table, "cloth", "no cloth has this name; " + near_miss_or_list(name, names));
 }
 
+UserError no_mesh_to_weld(const Node& table) {
+    return value_error(table, "weld",
+                       "only a mesh file has several vertices in one place; leave it out");
+}
+
 SeamSide read_seam_side(const Node& table, const Scene& scene) {
     SeamSide side;
     const Cloth& cloth = named_cloth(table, scene);
@@ -267,6 +273,41 @@ SeamSide read_seam_side(const Node& table, const Scene& scene) {
     if (names_any(side.selected)) return side;
     throw value_error(table, "cloth",
                       "say which of its vertices: edges, rims, parts, vertices or box");
+}
+
+/// Welding makes vertices of one mesh one, so that its triangles and folds go on over the seam.
+void check_weld(const Node& table, const Seam& seam, const Scene& scene) {
+    for (const char* key : {"stiffness", "time"}) {
+        if (!table.find(key)) continue;
+        throw value_error(table, key,
+                          "cannot stand beside weld = true, which has no stitches; leave out "
+                          "either");
+    }
+    if (seam.a.cloth != seam.b.cloth) {
+        throw value_error(table, "weld",
+                          fmt::format("joins edges of one cloth, and these are of '{}' and '{}'; "
+                                      "put both into one mesh file, or leave weld out and give "
+                                      "stiffness and time: then stitches hold them together",
+                                      seam.a.cloth, seam.b.cloth));
+    }
+    const auto cloth = std::ranges::find(scene.cloths, seam.a.cloth, &Cloth::name);
+    if (!std::holds_alternative<MeshFile>(cloth->shape)) throw no_mesh_to_weld(table);
+}
+
+Seam read_seam(const Node& table, const Scene& scene) {
+    Seam seam{read_seam_side(*table.find("a"), scene), read_seam_side(*table.find("b"), scene), 0.0,
+              0.0, table.mark.text()};
+    if (truth_value(table, "weld")) {
+        check_weld(table, seam, scene);
+        return seam;
+    }
+    for (const char* key : {"stiffness", "time"}) {
+        if (table.find(key)) continue;
+        throw value_error(table, key, "is missing: a seam has stiffness and time, or weld = true");
+    }
+    seam.stiffness = number_value(table, "stiffness");
+    seam.time = number_value(table, "time");
+    return seam;
 }
 
 /// Puts a body where its copy number n is.
@@ -306,6 +347,8 @@ Cloth read_cloth(const Node& table, const std::string& scene_path) {
     read_elements(table, cloth);
     cloth.damping = optional_number(table, "damping");
     cloth.pins = read_pins(table, cloth.shape);
+    cloth.weld = truth_value(table, "weld");
+    if (cloth.weld && !std::holds_alternative<MeshFile>(cloth.shape)) throw no_mesh_to_weld(table);
     return cloth;
 }
 
@@ -357,16 +400,19 @@ std::vector<Attachment> read_attachments(const Node& root, const Scene& scene) {
     return attachments;
 }
 
-std::vector<Seam> read_seams(const Node& root, const Scene& scene) {
-    std::vector<Seam> seams;
+void read_seams(const Node& root, Scene& scene) {
     const Node* list = root.find("seam");
-    if (!list) return seams;
+    if (!list) return;
     for (const Node& table : list->array()) {
-        seams.push_back({read_seam_side(*table.find("a"), scene),
-                         read_seam_side(*table.find("b"), scene), number_value(table, "stiffness"),
-                         number_value(table, "time"), table.mark.text()});
+        Seam seam = read_seam(table, scene);
+        if (seam.time > 0.0) {
+            scene.seams.push_back(std::move(seam));
+            continue;
+        }
+        const auto cloth = std::ranges::find(scene.cloths, seam.a.cloth, &Cloth::name);
+        cloth->welds.push_back(
+            {std::move(seam.a.selected), std::move(seam.b.selected), std::move(seam.where)});
     }
-    return seams;
 }
 
 }  // namespace weft

@@ -22,6 +22,7 @@ MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene);
 
 /// scene: has its cloths and solids already.
 std::vector<Attachment> read_attachments(const Node& root, const Scene& scene);
-std::vector<Seam> read_seams(const Node& root, const Scene& scene);
+/// Into the scene's seams, and the welded ones into their cloths.
+void read_seams(const Node& root, Scene& scene);
 
 }  // namespace weft

@@ -249,7 +249,7 @@ Scene read_document(const Node& root, const std::string& path) {
     scene.contact = read_contact(root);
     read_obstacles(root, names, scene);
     scene.attachments = read_attachments(root, scene);
-    scene.seams = read_seams(root, scene);
+    read_seams(root, scene);
     if (scene.cloths.empty() && scene.solids.empty()) {
         throw UserError(path + ": a scene needs at least one [[cloth]] or [[solid]]");
     }

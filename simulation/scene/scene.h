@@ -126,6 +126,12 @@ struct PinGroup : Selection {
     std::optional<Motion> motion;  ///< absent: held still
 };
 
+/// [[seam]] of one cloth with weld = true: vertices of both sides that lie in one place are one.
+struct Weld {
+    Selection a, b;
+    std::string where;  ///< "file:line:column", for messages
+};
+
 /// [[cloth]]
 struct Cloth {
     std::string name;  ///< unique among the scene's cloths and solids
@@ -138,7 +144,9 @@ struct Cloth {
     ElementSettings elements;       ///< of further families
     std::optional<double> damping;  ///< of velocities [1/s], > 0
     std::vector<PinGroup> pins;
-    std::string where;  ///< "file:line:column", for messages
+    bool weld = false;        ///< of a mesh file: vertices of its border in one place are one
+    std::vector<Weld> welds;  ///< its welded seams
+    std::string where;        ///< "file:line:column", for messages
 };
 
 /// [[solid]]: tetrahedra of stable Neo-Hookean material.
@@ -171,7 +179,7 @@ struct SeamSide {
 };
 
 /// [[seam]]: stitches between two edges of one cloth or two, which are pulled together and then
-/// hold.
+/// hold. A welded one is a Weld of its cloth.
 struct Seam {
     SeamSide a, b;
     double stiffness = 0.0;  ///< of each stitch [N/m], > 0

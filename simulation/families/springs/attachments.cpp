@@ -79,7 +79,7 @@ std::vector<std::array<int, 2>> find_ties(const Attachment& attachment, const Sc
     double least = std::numeric_limits<double>::infinity();
     for (const int vertex :
          selected_vertices(attachment.selected, shape_of(scene, attachment.a), from, a.parts,
-                           fmt::format("attachment of {} '{}'", a.kind, a.name))) {
+                           fmt::format("attachment of {} '{}'", a.kind, a.name), a.welded)) {
         const auto [other, distance] = nearest.find(from[static_cast<std::size_t>(vertex)]);
         least = std::min(least, distance);
         if (distance <= reach) ties.push_back({a.first_vertex + vertex, b.first_vertex + other});

@@ -14,11 +14,6 @@ namespace weft {
 
 namespace {
 
-bool is_a_list(const Selection& s) {
-    return s.edges.empty() && s.corners.empty() && s.rims.empty() && s.parts.empty() &&
-           s.boxes.empty();
-}
-
 std::vector<double> places_along(const BorderChain& chain, const RestShape& rest) {
     std::vector<double> places{0.0};
     const std::size_t count = chain.vertices.size();
@@ -109,11 +104,11 @@ SeamEdge find_seam_edge(const Seam& seam, const SeamSide& side, const char* name
     const std::string whose = fmt::format("edge {} of a seam, cloth '{}'", name, side.cloth);
     const NamedVertices parts =
         side.selected.parts.empty() ? NamedVertices{} : named_parts(part.mesh);
-    const std::vector<int> chosen =
-        selected_vertices(side.selected, part.cloth.shape, part.mesh.positions, parts, whose);
+    const std::vector<int> chosen = selected_vertices(
+        side.selected, part.cloth.shape, part.mesh.positions, parts, whose, part.mesh.welded);
     SeamEdge edge;
-    if (is_a_list(side.selected)) {
-        edge.vertices = side.selected.vertices;
+    if (lists_vertices_alone(side.selected)) {
+        edge.vertices = listed_vertices(side.selected, part.mesh.welded);
     } else {
         std::vector<char> is_chosen(part.mesh.positions.size(), 0);
         for (const int vertex : chosen) is_chosen[static_cast<std::size_t>(vertex)] = 1;
