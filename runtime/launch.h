@@ -20,8 +20,8 @@ namespace weft {
 /// segments of one colour side by side instead, a strip's sweep would begin a new stream of memory
 /// at every segment.)
 struct Segments {
-    Buffer<int>* begin = nullptr;  ///< [first + strip_count * colour_count + 1], or more
-    int first = 0;                 ///< where this table starts within `begin`
+    const Buffer<int>* begin = nullptr;  ///< [first + strip_count * colour_count + 1], or more
+    int first = 0;                       ///< where this table starts within `begin`
     int colour_count = 1;
     int strip_count = 0;
 

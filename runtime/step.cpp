@@ -77,14 +77,15 @@ bool takes_turns_on_equal_terms(const TaskBody& body) {
     throw Misuse("a task of body '" + body.name + "': " + why);
 }
 
-void refuse_impossible(const TaskBody& body, int iteration, int first_strip, int end_strip,
-                       int region) {
-    if (iteration < 0 || region < 0) refuse(body, "iteration and region must be 0 or more");
+void refuse_impossible(const TaskBody& body, int iteration, StripRange strips, RegionId region) {
+    if (iteration < 0 || region < RegionId{})
+        refuse(body, "iteration and region must be 0 or more");
     for (const Launch& launch : body.launches) {
         if (launch.segments.begin == nullptr) refuse(body, "a launch has no table of strips");
-        if (0 <= first_strip && first_strip < end_strip && end_strip <= launch.segments.strip_count)
+        if (0 <= strips.begin && !strips.empty() && strips.end <= launch.segments.strip_count) {
             continue;
-        refuse(body, "strips [" + std::to_string(first_strip) + ", " + std::to_string(end_strip) +
+        }
+        refuse(body, "strips [" + std::to_string(strips.begin) + ", " + std::to_string(strips.end) +
                          "), and kernel '" + std::string(launch.kernel->name) + "' has [0, " +
                          std::to_string(launch.segments.strip_count) + ")");
     }
@@ -156,16 +157,15 @@ Step::Adding& Step::Adding::updates(BufferStorage& buffer, const Segments& strip
     return access({&buffer, &strips, task.first_strip, task.end_strip, true});
 }
 
-Step::Adding Step::add(const TaskBody& body, int iteration, int first_strip, int end_strip,
-                       int region) {
+Step::Adding Step::add(const TaskBody& body, int iteration, StripRange strips, RegionId region) {
     refuse_if_sealed();
-    refuse_impossible(body, iteration, first_strip, end_strip, region);
+    refuse_impossible(body, iteration, strips, region);
     tasks_.push_back({&body,
                       iteration,
-                      first_strip,
-                      end_strip,
+                      strips.begin,
+                      strips.end,
                       region,
-                      body.item_count(first_strip, end_strip),
+                      body.item_count(strips.begin, strips.end),
                       {}});
     return {*this, static_cast<int>(tasks_.size()) - 1};
 }

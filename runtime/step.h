@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/launch.h"
+#include "runtime/numbers.h"
 
 namespace weft {
 
@@ -23,7 +24,7 @@ struct Task {
     int iteration = 0;
     int first_strip = 0;
     int end_strip = 0;
-    int region = 0;  ///< tasks of one region share most of their data
+    RegionId region{};  ///< tasks of one region share most of their data
     long items = 0;
     std::vector<Access> accesses;
 };
@@ -61,7 +62,7 @@ public:
     };
     /// Adds a copy of a task of another step.
     void add(const Task& task);
-    Adding add(const TaskBody& body, int iteration, int first_strip, int end_strip, int region);
+    Adding add(const TaskBody& body, int iteration, StripRange strips, RegionId region = {});
 
     /// Finds the dependencies; call once, when all tasks are there.
     void seal();

@@ -11,6 +11,7 @@
 #include "runtime/tbb/parallel.h"
 #include "simulation/contact/knots.h"
 #include "simulation/energy_account.h"
+#include "simulation/mesh/vertex_sets.h"
 #include "simulation/mesh/winding.h"
 #include "simulation/model/contact_thickness.h"
 #include "simulation/triangle_distance.h"

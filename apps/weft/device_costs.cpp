@@ -63,7 +63,7 @@ void measure_launches(Device& device, DeviceCosts& costs) {
     const TaskBody* const bodies[] = {&probe.body};
     Executor executor({&device}, bodies);
     Step step;
-    step.add(probe.body, 0, 0, 1, 0);
+    step.add(probe.body, 0, {0, 1});
     step.seal();
     scheduler::Plan plan;
     plan.placements.push_back({0.0, 1.0, 0});

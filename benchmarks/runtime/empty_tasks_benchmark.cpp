@@ -24,7 +24,7 @@ public:
     explicit EmptyTasks(const std::string& device)
         : devices_(open_devices(device)), executor_({devices_.front().get()}, bodies_) {
         for (int t = 0; t < kTasks; ++t) {
-            step_.add(body_, 0, 0, 1, 0).updates(positions_, 0, 1);
+            step_.add(body_, 0, {0, 1}).updates(positions_, 0, 1);
             plan_.placements.push_back({static_cast<double>(t), static_cast<double>(t + 1), 0});
         }
         step_.seal();

@@ -47,11 +47,11 @@ cl_mem_flags flags_of(MemoryModel memory) {
     throw std::logic_error("unknown memory model");
 }
 
-cl::Buffer make_memory(const OpenClTarget& target, BufferStorage& buffer) {
+cl::Buffer make_memory(const OpenClTarget& target, const BufferStorage& buffer) {
     // Whole and padded pages: zero copy asks for them, and no size is 0.
     const std::size_t bytes = std::max<std::size_t>((buffer.bytes() + 63) / 64 * 64, 64);
     return cl::Buffer(target.context, CL_MEM_READ_WRITE | flags_of(target.info.memory), bytes,
-                      buffer.host());
+                      const_cast<void*>(buffer.host()));  // OpenCL has one pointer for both
 }
 
 /// What the host does with memory while it is mapped.
@@ -97,11 +97,11 @@ OpenClStream::~OpenClStream() {
     keep(std::move(kept));
 }
 
-OpenClStream::Memory OpenClStream::bring(BufferStorage& buffer) {
+OpenClStream::Memory OpenClStream::bring(const BufferStorage& buffer) {
     return {make_memory(target_, buffer), buffer.generation(), buffer.memory()};
 }
 
-const cl::Buffer& OpenClStream::memory_of(BufferStorage& buffer) {
+const cl::Buffer& OpenClStream::memory_of(const BufferStorage& buffer) {
     auto known = memory_.find(&buffer);
     if (known == memory_.end()) known = memory_.emplace(&buffer, bring(buffer)).first;
     WEFT_ASSERT(known->second.generation == buffer.generation());  // else: rebind() first

@@ -70,8 +70,8 @@ private:
     };
     enum class Direction { kToDevice, kToHost };
 
-    Memory bring(BufferStorage& buffer);
-    const cl::Buffer& memory_of(BufferStorage& buffer);
+    Memory bring(const BufferStorage& buffer);
+    const cl::Buffer& memory_of(const BufferStorage& buffer);
     void set_arguments(BoundBody& bound);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
@@ -96,7 +96,7 @@ private:
     OpenClTarget target_;
     cl::CommandQueue queue_;
     cl::CommandQueue copies_;
-    std::map<BufferStorage*, Memory> memory_;
+    std::map<const BufferStorage*, Memory> memory_;
     std::vector<BoundBody> bodies_;
     std::deque<OpenClCompletion> completions_;
     std::deque<Running> running_;

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "runtime/numbers.h"
+
 namespace weft {
 
 /// Strips [begin, end), the share of one device.
@@ -13,6 +15,7 @@ struct Part {
     /// Only OwnIterates has others (own_iterates.h).
     int iterate = 0;
 
+    StripRange strips() const { return {begin, end}; }
     friend auto operator<=>(const Part&, const Part&) = default;
 };
 

@@ -89,7 +89,7 @@ std::vector<int> Placement::parts_for(const std::vector<Division>& shares) const
 
 /// Fewer parts where a part has many tasks.
 void Placement::limit_parts(const Step& step) {
-    const int regions = step.tasks().back().region + 1;
+    const int regions = static_cast<int>(step.tasks().back().region) + 1;
     const int tasks_per_part = static_cast<int>(step.tasks().size()) / regions;
     part_count_ = std::clamp(kMostTasks / std::max(tasks_per_part, 1), 2, part_count_);
 }
@@ -163,7 +163,7 @@ double Placement::try_shares(const std::vector<Division>& shares) {
     const scheduler::TaskGraph& graph = shared_graph_->graph();
     trial_.placements.resize(tasks.size());
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-        int left = tasks[t].region;
+        auto left = static_cast<int>(tasks[t].region);
         const auto& parts = shares[static_cast<std::size_t>(tasks[t].body->kind)].strips;
         scheduler::ProcessorId device = 0;
         while (left >= parts[device]) left -= parts[device++];

@@ -32,7 +32,7 @@ std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& 
         std::uint32_t order = 0;
         for (const scheduler::TaskId id : plan.plan.tasks_on(d)) {
             const Task& task = plan.step->tasks()[id];
-            const auto region = static_cast<std::size_t>(task.region);
+            const std::size_t region = index(task.region);
             PlanRecord& record = records.emplace_back(task_record(id, task));
             record.device = number_of(d);
             record.home = plan.is_placed()
@@ -123,7 +123,7 @@ FrameRecord record_of(const Step& step, const Division& division) {
     for (const Task& task : step.tasks()) {
         PlanRecord& record = frame.plan.emplace_back(
             task_record(static_cast<scheduler::TaskId>(frame.plan.size()), task));
-        record.home = u32(homes[static_cast<std::size_t>(task.region)]);
+        record.home = u32(homes[index(task.region)]);
     }
     return frame;
 }

@@ -12,7 +12,7 @@ std::vector<Region> regions_of(const Partition& partition) {
         const Part& part = partition.parts[static_cast<std::size_t>(r)];
         WEFT_ASSERT(part.begin == (r == 0 ? 0 : regions.back().end));
         WEFT_ASSERT(part.begin < part.end);
-        regions.push_back({r, part.begin, part.end, r > 0, r < last});
+        regions.push_back({RegionId{r}, part.begin, part.end, r > 0, r < last});
     }
     return regions;
 }

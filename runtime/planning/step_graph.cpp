@@ -26,9 +26,9 @@ void check(const Step& step, std::size_t parts) {
     if (step.tasks().empty()) throw Misuse("make_step() gave a step without tasks");
     if (!step.sealed()) throw Misuse("make_step() gave a step that is not sealed");
     for (const Task& task : step.tasks()) {
-        if (task.region >= 0 && task.region < static_cast<int>(parts)) continue;
+        if (task.region >= RegionId{} && index(task.region) < parts) continue;
         throw Misuse("make_step() gave task '" + task.body->name + "' to region " +
-                     std::to_string(task.region) + ", and the partition has " +
+                     std::to_string(static_cast<int>(task.region)) + ", and the partition has " +
                      std::to_string(parts) + " parts");
     }
 }
@@ -61,7 +61,7 @@ const scheduler::TaskGraph& StepGraph::price(const TimingModel& timing,
     cost_.resize(devices);
     const auto& tasks = step_.tasks();
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-        const unsigned may = allowed[static_cast<std::size_t>(tasks[t].region)];
+        const unsigned may = allowed[index(tasks[t].region)];
         for (std::size_t d = 0; d < devices; ++d) {
             cost_[d] = (may >> d & 1U) != 0 ? timing.task(tasks[t], static_cast<int>(d))
                                             : scheduler::kCannotRun;

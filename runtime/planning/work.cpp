@@ -93,10 +93,10 @@ int StripWork::largest_reach() const {
     return most;
 }
 
-void StripWork::add_task(Step& step, const Description& stage, int begin, int end,
-                         int region) const {
-    if (begin >= end) return;
-    auto task = step.add(stage.body, 0, begin, end, region);
+void StripWork::add_task(Step& step, const Description& stage, StripRange strips,
+                         RegionId region) const {
+    if (strips.empty()) return;
+    auto task = step.add(stage.body, 0, strips, region);
     for (const Part& part : stage.parts) {
         if (part.per_instance > 0) {
             task.reads_by_instance(*part.buffer, part.per_instance);
@@ -105,8 +105,8 @@ void StripWork::add_task(Step& step, const Description& stage, int begin, int en
         } else if (part.writes) {
             task.updates(*part.buffer, part.strips);
         } else {
-            task.reads(*part.buffer, part.strips, std::max(begin - part.reach, 0),
-                       std::min(end + part.reach, strip_count_));
+            task.reads(*part.buffer, part.strips, std::max(strips.begin - part.reach, 0),
+                       std::min(strips.end + part.reach, strip_count_));
         }
     }
 }
@@ -124,9 +124,9 @@ Step StripWork::make_step(const Partition& partition) {
                 region.cut_before ? std::min(region.begin + reach, region.end) : region.begin;
             const int far_end =
                 region.cut_behind ? std::max(region.end - reach, near_end) : region.end;
-            add_task(step, stage, region.begin, near_end, region.id);
-            add_task(step, stage, far_end, region.end, region.id);
-            add_task(step, stage, near_end, far_end, region.id);
+            add_task(step, stage, {region.begin, near_end}, region.id);
+            add_task(step, stage, {far_end, region.end}, region.id);
+            add_task(step, stage, {near_end, far_end}, region.id);
         }
     }
     step.seal();
@@ -154,7 +154,7 @@ StepWork::StepWork(const Step& step) : tasks_(step.tasks()), limits_(step.instan
     if (!step.sealed()) throw Misuse("the step is not sealed: call seal() behind its last task");
     strip_count_ = kLeastStrips;
     for (Task& task : tasks_) {
-        task.region = 0;
+        task.region = {};
         strip_count_ = std::max(strip_count_, strips_of(task));
     }
 }

@@ -79,7 +79,7 @@ private:
         TaskBody body;
         std::deque<Part> parts;  // a deque: accesses point to their strips
     };
-    void add_task(Step& step, const Description& stage, int begin, int end, int region) const;
+    void add_task(Step& step, const Description& stage, StripRange strips, RegionId region) const;
     static void check_neighbours(const Description& stage);
     void check(const Segments& strips, const std::string& stage) const;
     int largest_reach() const;

@@ -20,7 +20,7 @@ void ContactEnergy::add(Step& step, const std::vector<Region>& regions, int iter
     for (const Region& region : regions) {
         const int first = model_.vertices().item(region.begin);
         const int last = model_.vertices().item(region.end);
-        auto task = step.add(body_, iteration, region.begin, region.end, region.id);
+        auto task = step.add(body_, iteration, region.strips(), region.id);
         task.reads(*model_.positions, 0, all)
             .reads(*model_.previous, 0, all)
             .updates(energies_, first, last)

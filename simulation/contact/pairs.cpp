@@ -144,9 +144,9 @@ void ContactPairs::make_pairs_body(int kind) {
 }
 
 /// The triangles of a strip reach into the next one.
-void ContactPairs::add_boxes(Step& step, const Part& part, int region) {
+void ContactPairs::add_boxes(Step& step, const Part& part, RegionId region) {
     const int next = std::min(part.end + 1, strips_.strip_count);
-    auto adding = step.add(boxes_, 0, part.begin, part.end, region);
+    auto adding = step.add(boxes_, 0, part.strips(), region);
     adding.reads(anchors_, strips_.item(part.begin), strips_.item(next));
     adding.reads(goals_, strips_.item(part.begin), strips_.item(next));
     updates(adding, points_, s_.vertices.items, part);
@@ -160,10 +160,10 @@ void ContactPairs::add_boxes(Step& step, const Part& part, int region) {
     }
 }
 
-void ContactPairs::add_near(Step& step, const Part& part, int region) {
+void ContactPairs::add_near(Step& step, const Part& part, RegionId region) {
     const int next = std::min(part.end + 1, strips_.strip_count);
     const auto [first, last] = range(s_.vertices.items, part.begin, next);
-    auto adding = step.add(near_task_, 0, part.begin, part.end, region);
+    auto adding = step.add(near_task_, 0, part.strips(), region);
     reads_all(adding, tilts_, s_.patches);
     reads_all(adding, drifts_, s_.patches);
     reads_all(adding, patch_low_, s_.patches);
@@ -180,9 +180,9 @@ void ContactPairs::add_near(Step& step, const Part& part, int region) {
     updates(adding, edge_high_, s_.edges.items, part);
 }
 
-void ContactPairs::add_pairs(Step& step, const Part& part, int region) {
+void ContactPairs::add_pairs(Step& step, const Part& part, RegionId region) {
     const auto [first, last] = range(s_.patches, part.begin, part.end);
-    auto adding = step.add(pairs_, 0, part.begin, part.end, region);
+    auto adding = step.add(pairs_, 0, part.strips(), region);
     reads_all(adding, patch_low_, s_.patches);
     reads_all(adding, patch_high_, s_.patches);
     reads_all(adding, points_, s_.vertices.items);

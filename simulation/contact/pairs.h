@@ -52,9 +52,9 @@ public:
 
     std::vector<const TaskBody*> bodies() const { return {&boxes_, &near_task_, &pairs_}; }
     std::vector<RowTable*> tables() { return {&near_.table, &vt_.table, &tv_.table, &ee_.table}; }
-    void add_boxes(Step& step, const Part& part, int region);
-    void add_near(Step& step, const Part& part, int region);
-    void add_pairs(Step& step, const Part& part, int region);
+    void add_boxes(Step& step, const Part& part, RegionId region);
+    void add_near(Step& step, const Part& part, RegionId region);
+    void add_pairs(Step& step, const Part& part, RegionId region);
 
     const Surface& surface() const { return surface_; }
     const PairSettings& settings() const { return settings_; }

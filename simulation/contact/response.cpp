@@ -232,7 +232,7 @@ void ContactResponse::add_detection(Step& step, const std::vector<Region>& regio
 void ContactResponse::add_fill(Step& step, const Region& region) {
     const auto [first, last] = vertices(region.begin, region.end);
     const int all = model_.vertex_count();
-    auto task = step.add(fill_, 0, region.begin, region.end, region.id);
+    auto task = step.add(fill_, 0, region.strips(), region.id);
     task.reads(anchors_, 0, all).reads(goals_, 0, all).updates(*model_.positions, first, last);
     add_pair_accesses(task, region);
     for (RowTable* table : {&planes_table_, &contacts_}) {

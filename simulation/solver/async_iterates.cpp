@@ -209,11 +209,11 @@ std::vector<std::vector<int>> order_by_other_data(const Step& step, const Iterat
 std::vector<double> planned_durations(const Step& step, std::size_t parts, int iterations) {
     std::vector<double> items(parts, 0.0);
     for (const Task& task : step.tasks()) {
-        items[static_cast<std::size_t>(task.region)] += static_cast<double>(task.items);
+        items[index(task.region)] += static_cast<double>(task.items);
     }
     std::vector<double> durations;
     for (const Task& task : step.tasks()) {
-        const double all = items[static_cast<std::size_t>(task.region)];
+        const double all = items[index(task.region)];
         durations.push_back(static_cast<double>(task.items) * iterations / all);
     }
     return durations;
@@ -293,7 +293,7 @@ scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Par
         planned.iteration = task.iteration;
         planned.stage = stage_of(task, static_cast<int>(t));
         if (by_kinds()) planned.kind = task.body->kind;
-        planned.device = task.region;
+        planned.device = static_cast<int>(task.region);
         planned.synchronous = !is_asynchronous(task);
         planned.after = after[t];
         for (const Access& access : task.accesses) {
@@ -351,7 +351,7 @@ private:
     void add_task(const Task& task, int device) {
         const Iterates& iterates = solver_.iterates_;
         Task own = task;
-        own.region = device;
+        own.region = RegionId{device};
         own.body = &iterates.body_for(*task.body, device);
         for (Access& access : own.accesses) {
             const std::size_t buffer = iterates.index_of(access.buffer);
@@ -391,7 +391,8 @@ private:
         const bool merges = step.kind == scheduler::ExchangeStep::Kind::kMerge;
         const auto body = solver_.exchanges_.find({buffer, merges ? start : kCopies, from, to});
         WEFT_ASSERT(body != solver_.exchanges_.end());
-        auto task = step_.add(*body->second, iteration_of(step), begin, end, step.device);
+        auto task =
+            step_.add(*body->second, iteration_of(step), {begin, end}, RegionId{step.device});
         task.reads(iterates.in(buffer, from), first, last)
             .updates(iterates.in(buffer, to), first, last);
         if (merges) task.reads(iterates.in(buffer, start), first, last);

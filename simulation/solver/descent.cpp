@@ -113,7 +113,7 @@ std::pair<int, int> DescentSubstep::vertices(int first_strip, int end_strip) con
 
 Step::Adding DescentSubstep::add_begin(Step& step, const TaskBody& body, const Region& region) {
     const auto [first, last] = vertices(region.begin, region.end);
-    auto task = step.add(body, 0, region.begin, region.end, region.id);
+    auto task = step.add(body, 0, region.strips(), region.id);
     task.reads(*model_.velocities, first, last)
         .updates(*model_.positions, first, last)
         .updates(*model_.previous, first, last)
@@ -130,7 +130,7 @@ void DescentSubstep::add_momentum(Step& step, const TaskBody& body,
     for (const Region& region : regions) {
         if (!free_bodies_->reach_into(region.begin, region.end)) continue;
         const auto [first, last] = vertices(region.begin, region.end);
-        auto task = step.add(body, iteration, region.begin, region.end, region.id);
+        auto task = step.add(body, iteration, region.strips(), region.id);
         task.reads(targets_, first, last).reads(positions, first, last);
         free_bodies_->add_sum_accesses(task, region.begin, region.end);
     }
@@ -139,7 +139,7 @@ void DescentSubstep::add_momentum(Step& step, const TaskBody& body,
 Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Region& region,
                                      int iteration) {
     const auto [first, last] = vertices(region.begin, region.end);
-    auto task = step.add(body, iteration, region.begin, region.end, region.id);
+    auto task = step.add(body, iteration, region.strips(), region.id);
     task.reads(*model_.previous, first, last)
         .updates(*model_.velocities, first, last)
         .updates(targets_, first, last);

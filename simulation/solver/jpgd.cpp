@@ -115,9 +115,8 @@ public:
         for (int i = 0; i < iterations_; ++i) {
             if (i % kCheckEvery == 0) add_check(step, regions, i);
             for (const Region& region : regions) {
-                for_each_share(region, [&](int begin, int end) {
-                    add_descent(step, i, begin, end, region.id);
-                });
+                for_each_share(region,
+                               [&](StripRange strips) { add_descent(step, i, strips, region.id); });
             }
         }
         add_check(step, regions, iterations_);
@@ -215,18 +214,18 @@ private:
         for (const Region& region : regions) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
             const auto [seen_begin, seen_end] = seen_from(first, last);
-            auto task = step.add(energies_[parity], iteration, region.begin, region.end, region.id);
+            auto task = step.add(energies_[parity], iteration, region.strips(), region.id);
             task.reads(after(iteration), seen_begin, seen_end)
                 .reads(substep_.targets(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
             if (contact_) contact_->energy().add_terms_accesses(task, region.begin, region.end);
         }
-        step.add(decide_, iteration, 0, 1, 0)
+        step.add(decide_, iteration, {0, 1})
             .reads(energy_.partials(), 0, columns * model_.strips.count())
             .updates(control_, 0, WEFT_CONTROL_SIZE);
         for (const Region& region : regions) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            auto task = step.add(reverts_[parity], iteration, region.begin, region.end, region.id);
+            auto task = step.add(reverts_[parity], iteration, region.strips(), region.id);
             task.reads(control_, 0, WEFT_CONTROL_SIZE)
                 .updates(after(iteration), first, last)
                 .updates(kept_, first, last);
@@ -235,13 +234,13 @@ private:
         }
     }
 
-    void add_descent(Step& step, int iteration, int begin, int end, int region) {
+    void add_descent(Step& step, int iteration, StripRange strips, RegionId region) {
         const bool is_fresh = contact_ || refreshes(iteration);
         const auto parity = static_cast<std::size_t>(iteration % 2);
-        const auto [first, last] = substep_.vertices(begin, end);
+        const auto [first, last] = substep_.vertices(strips.begin, strips.end);
         const auto [seen_begin, seen_end] = seen_from(first, last);
         auto task =
-            step.add(is_fresh ? refreshes_[parity] : steps_[parity], iteration, begin, end, region);
+            step.add(is_fresh ? refreshes_[parity] : steps_[parity], iteration, strips, region);
         task.reads(control_, 0, WEFT_CONTROL_SIZE)
             .reads(after(iteration), seen_begin, seen_end)
             .reads(substep_.targets(), first, last)
@@ -251,7 +250,7 @@ private:
         derivatives_.add_hessian_accesses(task, first, last, is_fresh);
         substep_.add_obstacle_accesses(task, first, last);
         if (!contact_) return;
-        contact_->rows().add_reads(task, begin, end, first, last);
+        contact_->rows().add_reads(task, strips.begin, strips.end, first, last);
         contact_->add_truncation_accesses(task, first, last);
     }
 

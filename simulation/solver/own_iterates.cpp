@@ -55,7 +55,7 @@ public:
                        static_cast<std::size_t>(solver.iterates_.pieces().strip_count), 1U)) {}
 
     void add(const Task& task) {
-        const int iterate = partition_.parts[static_cast<std::size_t>(task.region)].iterate;
+        const int iterate = partition_.parts[index(task.region)].iterate;
         WEFT_ASSERT(iterate >= 0 && iterate < solver_.iterates_.count());
         Task own = task;
         own.body = &solver_.iterates_.body_for(*task.body, iterate);
@@ -75,7 +75,7 @@ public:
             const Part& part = partition_.parts[r];
             Task task;
             task.iteration = last_iteration_;
-            task.region = static_cast<int>(r);
+            task.region = RegionId{static_cast<int>(r)};
             for (std::size_t c = 0; c < current_.size(); ++c) {
                 for (int half = 0; half < solver_.iterates_.halves(c); ++half) {
                     const int first = half * solver_.iterates_.pieces_per_half();
@@ -127,7 +127,7 @@ private:
             current_[copies][static_cast<std::size_t>(piece)] |= 1U << to;
         }
         if (first == last) return;
-        step_.add(solver_.exchange_[copies][body], reader.iteration, begin, end, reader.region)
+        step_.add(solver_.exchange_[copies][body], reader.iteration, {begin, end}, reader.region)
             .reads(all.in(copies, from), first, last)
             .updates(all.in(copies, to), first, last);
     }

@@ -88,33 +88,33 @@ Step SweepSolver::make_step(const Partition& partition) {
 void SweepSolver::add_iteration(Step& step, const std::vector<Region>& regions, int iteration) {
     for (const Region& region : regions) {
         for_each_part(
-            region, [&](int begin, int end) { add_seams(step, iteration, begin, end, region.id); },
-            [&](int begin, int end) { add_strips(step, iteration, begin, end, region.id); });
+            region, [&](StripRange seams) { add_seams(step, iteration, seams, region.id); },
+            [&](StripRange strips) { add_strips(step, iteration, strips, region.id); });
     }
 }
 
 /// The vertices of a seam lie within its hull; their elements have vertices in both strips.
-void SweepSolver::add_seams(Step& step, int iteration, int begin, int end, int region) {
-    const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
-    const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
+void SweepSolver::add_seams(Step& step, int iteration, StripRange seams, RegionId region) {
+    const int first = model_.strips.seam_begin[static_cast<std::size_t>(seams.begin)];
+    const int last = model_.strips.seam_end[static_cast<std::size_t>(seams.end - 1)];
     const auto [halo_begin, halo_end] = halo_.around(first, last);
-    auto task = step.add(sweep(iteration).seams, iteration, begin, end, region);
+    auto task = step.add(sweep(iteration).seams, iteration, seams, region);
     task.updates(*model_.positions, first, last)
         .reads(*model_.positions, halo_begin, first)
         .reads(*model_.positions, last, halo_end)
         .reads(substep_.targets(), first, last);
     if (substep_.contact() == nullptr) return;
-    substep_.contact()->add_gather_accesses(task, iteration, begin, end + 1);
+    substep_.contact()->add_gather_accesses(task, iteration, seams.begin, seams.end + 1);
 }
 
-void SweepSolver::add_strips(Step& step, int iteration, int begin, int end, int region) {
-    const auto [first, last] = substep_.vertices(begin, end);
-    auto task = step.add(sweep(iteration).strips, iteration, begin, end, region);
+void SweepSolver::add_strips(Step& step, int iteration, StripRange strips, RegionId region) {
+    const auto [first, last] = substep_.vertices(strips.begin, strips.end);
+    auto task = step.add(sweep(iteration).strips, iteration, strips, region);
     task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);
     substep_.add_obstacle_accesses(task, first, last);
     ContactResponse* contact = substep_.contact();
     if (contact == nullptr) return;
-    contact->add_gather_accesses(task, iteration, begin, end);
+    contact->add_gather_accesses(task, iteration, strips.begin, strips.end);
     contact->add_truncation_accesses(task, first, last);
     contact->add_snapshot_accesses(task, iteration, first, last);
 }

@@ -50,8 +50,8 @@ private:
         TaskBody seams, strips;
     };
     void add_iteration(Step& step, const std::vector<Region>& regions, int iteration);
-    void add_seams(Step& step, int iteration, int begin, int end, int region);
-    void add_strips(Step& step, int iteration, int begin, int end, int region);
+    void add_seams(Step& step, int iteration, StripRange strips, RegionId region);
+    void add_strips(Step& step, int iteration, StripRange strips, RegionId region);
     const Sweep& sweep(int iteration) const {
         return *sweeps_[static_cast<std::size_t>(iteration) % sweeps_.size()];
     }

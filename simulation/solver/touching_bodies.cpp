@@ -121,7 +121,7 @@ void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& reg
     if (!bodies_.reach_into(region.begin, region.end)) return;
     const int first = model_.vertices().item(region.begin);
     const int last = model_.vertices().item(region.end);
-    auto task = step.add(body, iteration, region.begin, region.end, region.id);
+    auto task = step.add(body, iteration, region.strips(), region.id);
     task.reads(*targets_, first, last)
         .reads(positions, 0, model_.vertex_count())
         .reads(shifts_, 0, body_count() + 1);
@@ -133,7 +133,7 @@ void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& reg
 }
 
 void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) {
-    auto task = step.add(body, iteration, 0, 1, 0);
+    auto task = step.add(body, iteration, {0, 1});
     for (int part = 0; part < kParts; ++part) {
         const int first = part * lag_count_;
         task.reads(lags_, first, first + bodies_.run_count());

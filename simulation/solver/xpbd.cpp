@@ -195,7 +195,7 @@ private:
     void add_predict(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        auto task = step.add(predict_, 0, region.begin, region.end, region.id);
+        auto task = step.add(predict_, 0, region.strips(), region.id);
         task.reads(*model_.velocities, begin, end)
             .updates(*model_.positions, begin, end)
             .updates(*model_.previous, begin, end);
@@ -205,8 +205,8 @@ private:
     void add_velocities(Step& step, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        auto task = step.add(velocities_, model_.scene.solver.iterations - 1, region.begin,
-                             region.end, region.id);
+        auto task =
+            step.add(velocities_, model_.scene.solver.iterations - 1, region.strips(), region.id);
         task.reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
@@ -218,13 +218,12 @@ private:
         for (const Region& region : regions) {
             for_each_part(
                 region,
-                [&](int begin, int end) {
-                    for (const Group& g : groups_)
-                        add_seams(step, g, iteration, begin, end, region.id);
+                [&](StripRange seams) {
+                    for (const Group& g : groups_) add_seams(step, g, iteration, seams, region.id);
                 },
-                [&](int begin, int end) {
+                [&](StripRange strips) {
                     for (const Group& g : groups_)
-                        add_strips(step, g, iteration, begin, end, region.id);
+                        add_strips(step, g, iteration, strips, region.id);
                 });
         }
         for (const Region& region : regions) {
@@ -232,37 +231,35 @@ private:
         }
     }
 
-    void add_seams(Step& step, const Group& group, int iteration, int begin, int end, int id) {
+    void add_seams(Step& step, const Group& group, int iteration, StripRange seams, RegionId id) {
         if (group.families.empty()) return;
         const TaskBody& body = group.seams[iteration == 0];
-        const auto first = static_cast<std::size_t>(begin);
-        const auto last = static_cast<std::size_t>(end - 1);
-        auto task = step.add(body, iteration, begin, end, id);
+        const auto first = static_cast<std::size_t>(seams.begin);
+        const auto last = static_cast<std::size_t>(seams.end - 1);
+        auto task = step.add(body, iteration, seams, id);
         task.updates(*model_.positions, model_.strips.seam_begin[first],
                      model_.strips.seam_end[last]);
         update_multipliers(task, group, body);
     }
 
-    void add_strips(Step& step, const Group& group, int iteration, int begin, int end, int id) {
+    void add_strips(Step& step, const Group& group, int iteration, StripRange strips, RegionId id) {
+        const int begin = first_vertex(strips.begin), end = first_vertex(strips.end);
         const TaskBody& body = group.strips[iteration == 0];
-        auto task = step.add(body, iteration, begin, end, id);
-        task.updates(*model_.positions, first_vertex(begin), first_vertex(end));
+        auto task = step.add(body, iteration, strips, id);
+        task.updates(*model_.positions, begin, end);
         update_multipliers(task, group, body);
         if (contact_) {
-            projection_->add_snapshot_accesses(task, iteration, first_vertex(begin),
-                                               first_vertex(end));
+            projection_->add_snapshot_accesses(task, iteration, begin, end);
             return;
         }
         const bool has_obstacles = body.launches.size() > group.families.size();
-        if (has_obstacles) {
-            task.reads(*model_.previous, first_vertex(begin), first_vertex(end));
-        }
+        if (has_obstacles) task.reads(*model_.previous, begin, end);
     }
 
     void add_push(Step& step, int iteration, const Region& region) {
         const int begin = first_vertex(region.begin);
         const int end = first_vertex(region.end);
-        auto task = step.add(push_, iteration, region.begin, region.end, region.id);
+        auto task = step.add(push_, iteration, region.strips(), region.id);
         projection_->add_project_accesses(task, iteration, region.begin, region.end);
         contact_->add_truncation_accesses(task, begin, end);
         if (model_.obstacles) task.reads(*model_.previous, begin, end);

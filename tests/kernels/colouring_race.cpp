@@ -43,7 +43,7 @@ void run(bool is_right, bool per_colour) {
                         {launch(kernels::project_springs, segments, positions, ends, material,
                                 multipliers, 2, 1e4f, 1)}};
     Step step;
-    step.add(body, 0, 0, segments.strip_count, 0)
+    step.add(body, 0, {0, segments.strip_count})
         .updates(positions, 0, 3)
         .updates(multipliers, 0, 2);
     step.seal();

@@ -67,7 +67,7 @@ void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& d
         KernelCase& one = *cases[c];
         bodies[c] = {std::string(one.launch.kernel->name), 0, {one.launch}};
         pointers.push_back(&bodies[c]);
-        auto task = step.add(bodies[c], 0, 0, one.segments.strip_count, 0);
+        auto task = step.add(bodies[c], 0, {0, one.segments.strip_count});
         for (const auto& buffer : one.buffers) {
             task.updates(*buffer, 0, static_cast<int>(buffer->count()));
         }

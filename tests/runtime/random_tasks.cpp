@@ -130,7 +130,7 @@ Step RandomTasks::make_step(Random& random, int task_count) {
             random.integer(0, static_cast<int>(bodies_.size()) - 1))];
         const int first = random.integer(0, kStrips - 1);
         const int end = random.integer(first + 1, kStrips);
-        auto task = step.add(body.body, random.integer(0, kInstances), first, end, 0);
+        auto task = step.add(body.body, random.integer(0, kInstances), {first, end});
         for (const int p : body.updated) {
             task.updates(*points_[static_cast<std::size_t>(p)], kBegin[first], kBegin[end]);
         }

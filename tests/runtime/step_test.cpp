@@ -23,7 +23,7 @@ public:
             buffers.push_back(std::make_unique<Buffer<float>>("b" + std::to_string(i), 100));
         }
     }
-    Step::Adding add() { return step.add(body, 0, 0, 0, 0); }
+    Step::Adding add() { return step.add(body, 0, {0, 0}); }
 
     std::vector<std::unique_ptr<Buffer<float>>> buffers;
     TaskBody body;
@@ -100,7 +100,7 @@ TEST(Step, RefusesRangesOutsideOfTheBuffer) {
     const Segments table{&begin, 0, 1, 3};
     for (int strip = 0; strip <= 3; ++strip) begin[static_cast<std::size_t>(strip)] = 40 * strip;
     const auto updates = [&](int first, int end) {
-        a.step.add(a.body, 0, first, end, 0).updates(*a.buffers[0], table);
+        a.step.add(a.body, 0, {first, end}).updates(*a.buffers[0], table);
     };
     a.body.launches.clear();
     EXPECT_NO_THROW(updates(0, 2));
@@ -118,11 +118,11 @@ TEST(Step, RefusesUnitsThatCannotBeCompared) {
     const Segments elsewhere{&other, 0, 1, 3};
     const auto seal_with = [](const Segments& one, const Segments* two) {
         Accesses a;
-        a.step.add(a.body, 0, 0, 3, 0).updates(*a.buffers[0], one);
+        a.step.add(a.body, 0, {0, 3}).updates(*a.buffers[0], one);
         if (two != nullptr)
-            a.step.add(a.body, 0, 0, 3, 0).updates(*a.buffers[0], *two);
+            a.step.add(a.body, 0, {0, 3}).updates(*a.buffers[0], *two);
         else
-            a.step.add(a.body, 0, 0, 3, 0).reads(*a.buffers[0], 0, 3);
+            a.step.add(a.body, 0, {0, 3}).reads(*a.buffers[0], 0, 3);
         a.step.seal();
         return a.step.dependencies().size();
     };
@@ -141,10 +141,10 @@ TEST(Step, SegmentsOfOneBufferAreDifferentTables) {
     Buffer<float> multipliers("multipliers", 100);
     TaskBody body;
     Step step;
-    step.add(body, 0, 0, 0, 0);  // accesses nothing
+    step.add(body, 0, {0, 0});  // accesses nothing
     const auto add = [&](const Segments& table, int first, int end) {
         body.launches = {{nullptr, {}, table}};
-        step.add(body, 0, first, end, 0).updates(multipliers, table);
+        step.add(body, 0, {first, end}).updates(multipliers, table);
     };
     add(seams, 0, 5);
     add(strips, 0, 5);

@@ -221,7 +221,7 @@ private:
     void add_iteration(Step& step, int iteration, int gradient_steps) {
         ++number_;
         for (const Region& region : regions_) {
-            auto task = step.add(linearise_, number_, region.begin, region.end, region.id);
+            auto task = step.add(linearise_, number_, region.strips(), region.id);
             gradients_.add_linearise_accesses(task, region.begin, region.end);
         }
         if (iteration % kCoarseEvery == 0) add_coarse(step);
@@ -237,17 +237,17 @@ private:
         for (const Region& region : regions_) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
             const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
-            auto task = step.add(couple_, number_, region.begin, region.end, region.id);
+            auto task = step.add(couple_, number_, region.strips(), region.id);
             const auto [positions, before, after] = gradients_.linearised_at();
             task.reads(positions, halo_begin, halo_end)
                 .reads(before, halo_begin, halo_end)
                 .reads(after, halo_begin, halo_end);
             coarse.add_couple_accesses(task, region.begin, region.end);
         }
-        auto factor = step.add(factor_, number_, 0, 1, 0);
+        auto factor = step.add(factor_, number_, {0, 1});
         coarse.add_factor_accesses(factor);
         for (const Region& region : regions_) {
-            auto task = step.add(invert_, number_, region.begin, region.end, region.id);
+            auto task = step.add(invert_, number_, region.strips(), region.id);
             coarse.add_invert_accesses(task, region.begin, region.end);
         }
     }
@@ -256,29 +256,29 @@ private:
     void add_gradient_step(Step& step) {
         ++number_;
         for (const Region& region : regions_) {
-            for_each_share(region, [&](int begin, int end) {
-                auto task = step.add(correct_, number_, begin, end, region.id);
-                gradients_.add_correct_accesses(task, begin, end);
+            for_each_share(region, [&](StripRange strips) {
+                auto task = step.add(correct_, number_, strips, region.id);
+                gradients_.add_correct_accesses(task, strips.begin, strips.end);
             });
         }
         for (const Region& region : regions_) {
-            for_each_share_inside_first(region, [&](int begin, int end) {
-                auto task = step.add(product_, number_, begin, end, region.id);
-                gradients_.add_product_accesses(task, begin, end);
+            for_each_share_inside_first(region, [&](StripRange strips) {
+                auto task = step.add(product_, number_, strips, region.id);
+                gradients_.add_product_accesses(task, strips.begin, strips.end);
             });
         }
         for (const Region& region : regions_) {
-            auto task = step.add(advance_, number_, region.begin, region.end, region.id);
+            auto task = step.add(advance_, number_, region.strips(), region.id);
             gradients_.add_advance_accesses(task, region.begin, region.end);
         }
     }
 
     template <class Visit>
     static void for_each_share_inside_first(const Region& region, Visit visit) {
-        std::vector<std::pair<int, int>> shares;
-        for_each_share(region, [&](int begin, int end) { shares.emplace_back(begin, end); });
+        std::vector<StripRange> shares;
+        for_each_share(region, [&](StripRange strips) { shares.push_back(strips); });
         std::ranges::reverse(shares);
-        for (const auto& [begin, end] : shares) visit(begin, end);
+        for (const StripRange strips : shares) visit(strips);
     }
 
     void add_predict(Step& step, const Region& region) {
@@ -294,7 +294,7 @@ private:
         const auto [positions, before, after] = gradients_.linearised_at();
         for (const Region& region : regions_) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            auto task = step.add(move_, number_, region.begin, region.end, region.id);
+            auto task = step.add(move_, number_, region.strips(), region.id);
             task.updates(positions, first, last)
                 .updates(before, first, last)
                 .updates(after, first, last)
@@ -316,31 +316,32 @@ private:
         ++number_;
         for (const Region& region : regions_) {
             for_each_part(
-                region, [&](int begin, int end) { add_seams(step, begin, end, region.id); },
-                [&](int begin, int end) {
-                    const auto [first, last] = substep_.vertices(begin, end);
-                    auto task = step.add(smoother_.strips, number_, begin, end, region.id);
+                region, [&](StripRange seams) { add_seams(step, seams, region.id); },
+                [&](StripRange strips) {
+                    const auto [first, last] = substep_.vertices(strips.begin, strips.end);
+                    auto task = step.add(smoother_.strips, number_, strips, region.id);
                     task.updates(*model_.positions, first, last)
                         .reads(substep_.targets(), first, last);
                     add_last_word_accesses(task, first, last);
                     if (contact_ != nullptr) {
-                        contact_->add_gather_accesses(task, number_, begin, end);
+                        contact_->add_gather_accesses(task, number_, strips.begin, strips.end);
                     }
                 });
         }
     }
 
     /// As in sweeps.cpp.
-    void add_seams(Step& step, int begin, int end, int region) {
-        const int first = model_.strips.seam_begin[static_cast<std::size_t>(begin)];
-        const int last = model_.strips.seam_end[static_cast<std::size_t>(end - 1)];
+    void add_seams(Step& step, StripRange seams, RegionId region) {
+        const int first = model_.strips.seam_begin[static_cast<std::size_t>(seams.begin)];
+        const int last = model_.strips.seam_end[static_cast<std::size_t>(seams.end - 1)];
         const auto [halo_begin, halo_end] = gradients_.halo().around(first, last);
-        auto task = step.add(smoother_.seams, number_, begin, end, region);
+        auto task = step.add(smoother_.seams, number_, seams, region);
         task.updates(*model_.positions, first, last)
             .reads(*model_.positions, halo_begin, first)
             .reads(*model_.positions, last, halo_end)
             .reads(substep_.targets(), first, last);
-        if (contact_ != nullptr) contact_->add_gather_accesses(task, number_, begin, end + 1);
+        if (contact_ != nullptr)
+            contact_->add_gather_accesses(task, number_, seams.begin, seams.end + 1);
     }
 
     void add_check(Step& step) {
@@ -349,18 +350,18 @@ private:
         for (const Region& region : regions_) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
             const auto [halo_begin, halo_end] = gradients_.around(first, last);
-            auto task = step.add(energy_body_, number_, region.begin, region.end, region.id);
+            auto task = step.add(energy_body_, number_, region.strips(), region.id);
             if (contact_) contact_->energy().add_terms_accesses(task, region.begin, region.end);
             task.reads(positions, halo_begin, halo_end)
                 .reads(substep_.targets(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
         }
-        step.add(decide_, number_, 0, 1, 0)
+        step.add(decide_, number_, {0, 1})
             .reads(energy_.partials(), 0, columns * model_.strips.count())
             .updates(control_, 0, WEFT_CONTROL_SIZE);
         for (const Region& region : regions_) {
             const auto [first, last] = substep_.vertices(region.begin, region.end);
-            auto task = step.add(revert_, number_, region.begin, region.end, region.id);
+            auto task = step.add(revert_, number_, region.strips(), region.id);
             task.reads(control_, 0, WEFT_CONTROL_SIZE).updates(kept_, first, last);
             if (contact_) contact_->add_snapshot_accesses(task, number_, first, last);
             for (Buffer<float4>* buffer : {&positions, &before, &after}) {

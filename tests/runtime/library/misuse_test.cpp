@@ -90,7 +90,7 @@ struct OneTask {
         executor.emplace(std::vector{devices[0].get()}, bodies);
     }
     void add_task() {
-        step.add(body, 0, 0, OwnWork::kStrips, 0)
+        step.add(body, 0, {0, OwnWork::kStrips})
             .reads(own.now, own.strips)
             .reads_by_instance(own.losses, OwnWork::kZones)
             .updates(own.next, own.strips);
@@ -139,7 +139,7 @@ TEST(Misuse, APlanForOtherDevices) {
 
 TEST(Misuse, APlanWhoseOrderCannotBeFollowed) {
     OneTask one;
-    one.step.add(one.body, 0, 0, OwnWork::kStrips, 0).updates(one.own.next, one.own.strips);
+    one.step.add(one.body, 0, {0, OwnWork::kStrips}).updates(one.own.next, one.own.strips);
     one.step.seal();
     scheduler::Plan plan = OneTask::plan_for(2);
     std::swap(plan.order[0], plan.order[1]);
@@ -169,7 +169,7 @@ TEST(Misuse, ABufferThatDiesBeforeWhatRunsOnIt) {
     const TaskBody* const bodies[] = {&body};
     Executor executor({one.devices[0].get()}, bodies);
     Step step;
-    step.add(body, 0, 0, OwnWork::kStrips, 0).updates(*next, one.own.strips);
+    step.add(body, 0, {0, OwnWork::kStrips}).updates(*next, one.own.strips);
     step.seal();
     next.reset();
     expect_message([&] { executor.run(step, OneTask::plan_for(1), 1); }, {"'short-lived'"});
@@ -179,7 +179,7 @@ TEST(Misuse, ABodyThatTheExecutorDoesNotKnow) {
     OneTask one;
     const TaskBody other{"other", 0, one.body.launches};
     Step step;
-    step.add(other, 0, 0, OwnWork::kStrips, 0).updates(one.own.next, one.own.strips);
+    step.add(other, 0, {0, OwnWork::kStrips}).updates(one.own.next, one.own.strips);
     step.seal();
     expect_message([&] { one.executor->run(step, OneTask::plan_for(1), 1); }, {"'other'"});
 }
@@ -187,20 +187,23 @@ TEST(Misuse, ABodyThatTheExecutorDoesNotKnow) {
 TEST(Misuse, AnAccessOutsideItsBuffer) {
     OneTask one;
     const auto access = [&] {
-        one.step.add(one.body, 0, 0, 1, 0).reads(one.own.losses, 0, 1 << 20);
+        one.step.add(one.body, 0, {0, 1}).reads(one.own.losses, 0, 1 << 20);
     };
     expect_message(access, {"'all'", "'losses'", "no such part"});
 }
 
 TEST(Misuse, StripsThatALaunchDoesNotHave) {
     OneTask one;
-    expect_message([&] { one.step.add(one.body, 0, 0, OwnWork::kStrips + 1, 0); },
-                   {"'all'", "[0, 13)", "'spread'", "[0, 12)"});
+    expect_message(
+        [&] {
+            one.step.add(one.body, 0, {0, OwnWork::kStrips + 1});
+        },
+        {"'all'", "[0, 13)", "'spread'", "[0, 12)"});
 }
 
 TEST(Misuse, ABufferInUnitsOfTwoKinds) {
     OneTask one;
-    one.step.add(one.body, 0, 0, 1, 0).reads(one.own.now, 0, 5);
+    one.step.add(one.body, 0, {0, 1}).reads(one.own.now, 0, 5);
     expect_message([&] { one.step.seal(); }, {"'now'", "units of another kind"});
 }
 
@@ -266,7 +269,7 @@ TEST(Misuse, WorkWithoutStagesOrStrips) {
 TEST(Misuse, AStepThatIsNotSealedAsWork) {
     OwnWork own;
     Step step;
-    step.add(*own.work.bodies().front(), 0, 0, 1, 0).updates(own.next, own.strips);
+    step.add(*own.work.bodies().front(), 0, {0, 1}).updates(own.next, own.strips);
     expect_message([&] { StepWork{step}; }, {"not sealed"});
 }
 
@@ -399,7 +402,7 @@ TEST(Misuse, AWorkWhoseStepDoesNotFitItsPartition) {
         std::vector<std::string> kinds() const override { return own_.work.kinds(); }
         Step make_step(const Partition&) override {
             Step step;
-            step.add(*bodies().front(), 0, 0, 1, 5)
+            step.add(*bodies().front(), 0, {0, 1}, RegionId{5})
                 .reads(own_.now, own_.strips)
                 .reads_by_instance(own_.losses, OwnWork::kZones)
                 .updates(own_.next, own_.strips);

@@ -158,7 +158,7 @@ TEST(OwnSteps, ArePlacedTaskByTask) {
         Buffer<own::Cell>& to = body == &there ? own.next : own.now;
         for (int t = 0; t < kTasks; ++t) {
             const int first = t * kEach, end = first + kEach;
-            step.add(*body, 0, first, end, 0)
+            step.add(*body, 0, {first, end})
                 .reads(from, own.strips, std::max(first - 1, 0), std::min(end + 1, own.kStrips))
                 .reads_by_instance(own.losses, OwnWork::kZones)
                 .updates(to, own.strips);

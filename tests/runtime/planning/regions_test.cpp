@@ -34,7 +34,8 @@ TEST(Regions, PartsAreEveryStripAndEverySeamOnce) {
         std::vector<int> strip_visits(static_cast<std::size_t>(strips), 0);
         std::vector<int> seam_visits(static_cast<std::size_t>(strips), 0);
         const auto count = [](std::vector<int>& visits) {
-            return [&visits](int begin, int end) {
+            return [&visits](StripRange range) {
+                const auto [begin, end] = range;
                 EXPECT_LT(begin, end);
                 for (int i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
             };
@@ -58,11 +59,13 @@ TEST(Regions, SeamsComeBeforeTheStripsThatTheyTouch) {
         for (const Region& region : regions) {
             for_each_part(
                 region,
-                [&](int begin, int end) {
-                    for (int strip = begin; strip <= end; ++strip) EXPECT_FALSE(is_done(strip));
+                [&](StripRange seams) {
+                    for (int strip = seams.begin; strip <= seams.end; ++strip)
+                        EXPECT_FALSE(is_done(strip));
                 },
-                [&](int begin, int end) {
-                    for (int s = begin; s < end; ++s) done[static_cast<std::size_t>(s)] = true;
+                [&](StripRange range) {
+                    for (int s = range.begin; s < range.end; ++s)
+                        done[static_cast<std::size_t>(s)] = true;
                 });
         }
     });
@@ -72,7 +75,7 @@ TEST(Regions, TheStripBehindACutComesLastAndTheOpenSeamInTheMiddle) {
     const auto regions = regions_of(Partition::at(std::vector<int>{10}, 20));
     std::vector<std::pair<char, int>> first, second;  // kind, first strip or seam
     const auto list = [](auto& into, char kind) {
-        return [&into, kind](int begin, int) { into.emplace_back(kind, begin); };
+        return [&into, kind](StripRange range) { into.emplace_back(kind, range.begin); };
     };
     for_each_part(regions[0], list(first, 'm'), list(first, 't'));
     for_each_part(regions[1], list(second, 'm'), list(second, 't'));
@@ -86,7 +89,8 @@ TEST(Regions, SharesAreEveryStripOnceAndThoseBesideCutsFirst) {
         std::vector<int> visits(static_cast<std::size_t>(strips), 0);
         for (const Region& region : regions) {
             bool inside = false;  // past the strips beside cuts
-            for_each_share(region, [&](int begin, int end) {
+            for_each_share(region, [&](StripRange range) {
+                const auto [begin, end] = range;
                 EXPECT_LT(begin, end);
                 for (int s = begin; s < end; ++s) ++visits[static_cast<std::size_t>(s)];
                 const bool beside_cut = (region.cut_before && begin == region.begin) ||

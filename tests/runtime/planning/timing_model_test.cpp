@@ -36,8 +36,8 @@ TEST(TimingModel, LatenciesAreLearntFromOneInstanceToTheNext) {
     Buffer<float> buffer("buffer", 10);
     const TaskBody a{"a", 0, {}}, b{"b", 0, {}};
     Step step;
-    step.add(a, 0, 0, 0, 0).reads(buffer, 0, 10);
-    step.add(b, 0, 0, 0, 0).updates(buffer, 0, 10);
+    step.add(a, 0, {0, 0}).reads(buffer, 0, 10);
+    step.add(b, 0, {0, 0}).updates(buffer, 0, 10);
     step.seal();
     scheduler::Plan plan;
     plan.placements = {{0.0, 1.0, 0}, {1.0, 2.0, 1}};

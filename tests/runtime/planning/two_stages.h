@@ -28,10 +28,10 @@ public:
         Step step;
         int region = 0;
         for (const Part& part : partition.parts) {
-            step.add(a_, 0, part.begin, part.end, region)
+            step.add(a_, 0, part.strips(), RegionId{region})
                 .reads(table_, 0, static_cast<int>(table_.count()))
                 .updates(written_by_a_, strips_a_);
-            step.add(b_, 0, part.begin, part.end, region)
+            step.add(b_, 0, part.strips(), RegionId{region})
                 .reads(written_by_a_, strips_a_)
                 .updates(written_by_b_, strips_b_);
             ++region;

@@ -123,7 +123,7 @@ scheduler::Plan plan_in_order(const Step& step, const Division& division) {
     scheduler::Plan plan;
     for (std::size_t t = 0; t < step.tasks().size(); ++t) {
         const auto start = static_cast<double>(t);
-        const int device = devices[static_cast<std::size_t>(step.tasks()[t].region)];
+        const int device = devices[index(step.tasks()[t].region)];
         plan.placements.push_back(
             {start, start + 1.0, static_cast<scheduler::ProcessorId>(device)});
     }

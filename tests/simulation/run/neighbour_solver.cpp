@@ -44,23 +44,24 @@ Step NeighbourSolver::make_step(const Partition& partition) {
     const int all = static_cast<int>(partition.parts.size());
     Step step;
     const auto for_each = [&](auto add) {
-        for (int r = 0; r < all; ++r) add(partition.parts[static_cast<std::size_t>(r)], r);
+        for (int r = 0; r < all; ++r)
+            add(partition.parts[static_cast<std::size_t>(r)], RegionId{r});
     };
     const auto vertices = [&](const Part& part) {
         return std::pair(model_.vertices().item(part.begin), model_.vertices().item(part.end));
     };
-    for_each([&](const Part& part, int region) {
+    for_each([&](const Part& part, RegionId region) {
         const auto [first, last] = vertices(part);
-        step.add(predict_, 0, part.begin, part.end, region)
+        step.add(predict_, 0, part.strips(), region)
             .reads(*model_.velocities, first, last)
             .updates(*model_.positions, first, last)
             .updates(*model_.previous, first, last);
     });
-    for_each([&](const Part& part, int region) { add_find(step, part, region); });
-    for_each([&](const Part& part, int region) { add_part(step, part, region); });
-    for_each([&](const Part& part, int region) {
+    for_each([&](const Part& part, RegionId region) { add_find(step, part, region); });
+    for_each([&](const Part& part, RegionId region) { add_part(step, part, region); });
+    for_each([&](const Part& part, RegionId region) {
         const auto [first, last] = vertices(part);
-        step.add(velocities_, 0, part.begin, part.end, region)
+        step.add(velocities_, 0, part.strips(), region)
             .reads(*model_.positions, first, last)
             .reads(*model_.previous, first, last)
             .updates(*model_.velocities, first, last);
@@ -69,10 +70,10 @@ Step NeighbourSolver::make_step(const Partition& partition) {
     return step;
 }
 
-void NeighbourSolver::add_find(Step& step, const Part& part, int region) {
+void NeighbourSolver::add_find(Step& step, const Part& part, RegionId region) {
     const int first = model_.vertices().item(part.begin);
     const int last = model_.vertices().item(part.end);
-    step.add(find_, 0, part.begin, part.end, region)
+    step.add(find_, 0, part.strips(), region)
         .reads(*model_.previous, 0, model_.vertex_count())
         .updates(table_.counts(), first, last)
         .updates(table_.needs(), first, last)
@@ -80,10 +81,10 @@ void NeighbourSolver::add_find(Step& step, const Part& part, int region) {
         .updates(squares_, table_.entries());
 }
 
-void NeighbourSolver::add_part(Step& step, const Part& part, int region) {
+void NeighbourSolver::add_part(Step& step, const Part& part, RegionId region) {
     const int first = model_.vertices().item(part.begin);
     const int last = model_.vertices().item(part.end);
-    step.add(part_, 0, part.begin, part.end, region)
+    step.add(part_, 0, part.strips(), region)
         .updates(*model_.positions, first, last)
         .reads(*model_.previous, 0, model_.vertex_count())
         .reads(table_.counts(), first, last)

@@ -24,8 +24,8 @@ public:
     Step make_step(const Partition& partition) override;
 
 private:
-    void add_find(Step& step, const Part& part, int region);
-    void add_part(Step& step, const Part& part, int region);
+    void add_find(Step& step, const Part& part, RegionId region);
+    void add_part(Step& step, const Part& part, RegionId region);
 
     Model& model_;
     RowTable table_;

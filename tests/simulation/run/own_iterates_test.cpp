@@ -124,7 +124,7 @@ TEST_P(OwnIteratesOf, TasksKeepToTheirOwn) {
                 continue;
             const bool is_copy = name.ends_with(".1") || name.ends_with(".2");
             const int iterate = is_copy ? name.back() - '0' : 0;
-            EXPECT_EQ(iterate, task.region) << task.body->name << " on " << name;
+            EXPECT_EQ(RegionId{iterate}, task.region) << task.body->name << " on " << name;
             seen.insert(iterate);
         }
     }

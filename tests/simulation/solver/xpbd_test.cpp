@@ -160,11 +160,11 @@ TEST(Xpbd, RegionsOnlyWaitForTheirNeighboursAtTheCut) {
     for (const Dependency& d : step.dependencies()) {
         const Task& from = step.tasks()[static_cast<std::size_t>(d.from)];
         const Task& to = step.tasks()[static_cast<std::size_t>(d.to)];
-        EXPECT_LE(std::abs(from.region - to.region), 1);
+        EXPECT_LE(std::abs(static_cast<int>(from.region) - static_cast<int>(to.region)), 1);
     }
-    std::set<int> regions;
+    std::set<RegionId> regions;
     for (const Task& task : step.tasks()) regions.insert(task.region);
-    EXPECT_EQ(regions, (std::set<int>{0, 1, 2}));
+    EXPECT_EQ(regions, (std::set{RegionId{0}, RegionId{1}, RegionId{2}}));
 }
 
 /// The kernels that a scene's bodies launch.
