@@ -30,8 +30,6 @@ pins = {{ vertices = [0, 25] }}
 shape = "sphere"
 center = [0.5, -0.25, 0.5]
 radius = 0.2
-[contact]
-thickness = 0.008
 """
 
 
