@@ -84,13 +84,13 @@ public:
 private:
     Step make_step(const Partition& partition) {
         Step step;
-        const int regions = static_cast<int>(partition.parts.size());
-        for (int r = 0; r < regions; ++r)
-            pairs->add_boxes(step, partition.parts[static_cast<std::size_t>(r)], r);
-        for (int r = 0; r < regions; ++r)
-            pairs->add_near(step, partition.parts[static_cast<std::size_t>(r)], r);
-        for (int r = 0; r < regions; ++r)
-            pairs->add_pairs(step, partition.parts[static_cast<std::size_t>(r)], r);
+        const auto for_each = [&](auto add) {
+            int r = 0;
+            for (const auto& part : partition.parts) add(part, RegionId{r++});
+        };
+        for_each([&](const auto& part, RegionId r) { pairs->add_boxes(step, part, r); });
+        for_each([&](const auto& part, RegionId r) { pairs->add_near(step, part, r); });
+        for_each([&](const auto& part, RegionId r) { pairs->add_pairs(step, part, r); });
         step.seal();
         return step;
     }

@@ -158,11 +158,12 @@ TEST_P(Resting, LightBlockBearsAHeavyOne) {
         << "it is not crushed";
 }
 
-/// The other way round, 1 : 10,000, on one that swings, without friction. What single contacts of it
-/// press too hard is many times the light one's weight; in one round of the bodies' steps that threw
-/// it aside by tens of centimetres.
+/// The other way round, 1 : 10,000, on one that swings, without friction. What single contacts of
+/// it press too hard is many times the light one's weight; in one round of the bodies' steps that
+/// threw it aside by tens of centimetres.
 TEST_P(Resting, LightBlockIsNotThrownByAHeavyOne) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "has no steps of bodies, and says so if it fails";
+    if (GetParam() == Method::kXpbd)
+        GTEST_SKIP() << "has no steps of bodies, and says so if it fails";
     Scene scene = parse_scene(R"(
 [scene]
 frames = 30
