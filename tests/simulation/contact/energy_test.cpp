@@ -197,18 +197,6 @@ pins = { box = [[-9, -9, -9], [9, 9, 9]] }
     EXPECT_NE(told[0].what.find("in contacts"), std::string::npos) << told[0].what;
 }
 
-TEST(Contact, FrictionSaysWhichSolversKnowIt) {
-    Scene scene = parse_scene(kOverATriangle, "test.toml");
-    scene.contact->friction = 0.3;
-    scene.solver.method = Method::kNewton;
-    try {
-        ManualRun run(scene);
-        FAIL() << "it runs";
-    } catch (const UserError& error) {
-        EXPECT_NE(std::string(error.what()).find("\"vbd\""), std::string::npos) << error.what();
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(Methods, ContactEnergyOf,
                          testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd, Method::kXpbd,
                                          Method::kNewton),
