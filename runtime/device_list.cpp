@@ -39,7 +39,7 @@ struct Part {
 };
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-    throw UserError("--device: '" + text + "': " + why +
+    throw UserError("device list (--device): '" + text + "': " + why +
                     "; a device is cpu, gpu, opencl, opencl:I, opencl:NAME or hybrid, with /N at "
                     "its end limited to N units (but hybrid); several are joined by '+', and '|' "
                     "stands between those that take turns");
@@ -229,7 +229,8 @@ void share_cores(std::vector<Part>& parts, int cores) {
         if (part.units == 0) ++open;
     }
     if (asked + open > cores) {
-        throw UserError("--device: these devices ask for " + std::to_string(asked + open) +
+        throw UserError("device list (--device): these devices ask for " +
+                        std::to_string(asked + open) +
                         " cores, and devices never share a core; this process may use " +
                         std::to_string(cores));
     }

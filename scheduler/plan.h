@@ -36,7 +36,8 @@ struct Plan {
     bool proven_optimal = false;  ///< no schedule is shorter
     bool gave_up = false;         ///< an exact search stopped at its limit
 
-    /// The best bound known; the makespan itself once it is proven.
+    /// The best bound known of all schedules of the graph at hand: another division of the same
+    /// work is another graph. The makespan itself once it is proven.
     double lower_bound() const {
         return proven_optimal ? makespan : std::min(makespan, std::max(path_bound, area_bound));
     }

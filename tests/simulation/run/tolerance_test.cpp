@@ -104,7 +104,7 @@ TEST(Tolerance, SaysWhatWouldReachItInContact) {
     const std::string& what = simulation.troubles().front().what;
     EXPECT_TRUE(std::regex_search(what, std::regex("[0-9]+ substeps of [0-9]+ iterations")))
         << what;
-    EXPECT_EQ(what.find("by newton"), std::string::npos) << "which knows no friction: " << what;
+    EXPECT_NE(what.find("by newton"), std::string::npos) << what;
 }
 
 std::string hash_on(const std::string& devices) {

@@ -96,10 +96,10 @@ void expect_descent(Method method, const std::string& friction, double lasts) {
     const double whole = minimum.start_energy - minimum.energy;
     ASSERT_GT(whole, 0.1 * minimum.start_energy) << "there is something to do";
     double last = 1e30;
-    // By jpgd what presses comes and goes a little; but where things rub, rounds of steps as wholes
-    // lead nearly there by one iteration.
-    const bool rubs = !friction.empty();
-    const double slack = rubs && method == Method::kJpgd ? 1e-4 : 1e-6;
+    // Rounds of steps as wholes lead nearly there by one iteration; xpbd has them where things rub.
+    // By jpgd what presses comes and goes a little behind that.
+    const bool has_rounds = !friction.empty() || method != Method::kXpbd;
+    const double slack = method == Method::kJpgd ? (friction.empty() ? 2e-4 : 1e-4) : 1e-6;
     const bool is_newton = method == Method::kNewton;
     for (const int iterations : {1, 4, 16, 64, 256, 1024}) {
         if (is_newton && iterations > 64) break;
@@ -108,7 +108,7 @@ void expect_descent(Method method, const std::string& friction, double lasts) {
         const double error = (potential.energy(step.positions()) - minimum.energy) / whole;
         EXPECT_GT(error, -1e-6) << "nothing is below the minimum";
         EXPECT_LT(error, last + slack) << iterations;
-        EXPECT_LT(error, rubs ? 2e-3 : 1.0) << iterations;
+        EXPECT_LT(error, has_rounds ? 2e-3 : 0.1) << iterations;
         last = error;
         testing::Test::RecordProperty("after_" + std::to_string(iterations), std::to_string(error));
     }
