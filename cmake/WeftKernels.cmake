@@ -40,6 +40,9 @@ function(weft_add_kernels target)
     _weft_kernel_sources(packed_avx2
         "#define WEFT_PACKED_TARGET packed_avx2\n#define WEFT_PACKED_ID Target::kPackedAvx2"
         "${packed};-mavx2")
+    _weft_kernel_sources(packed_avx512
+        "#define WEFT_PACKED_TARGET packed_avx512\n#define WEFT_PACKED_ID Target::kPackedAvx512"
+        "${packed};-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
   endif()
   _weft_kernel_text()
 

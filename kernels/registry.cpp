@@ -13,18 +13,21 @@ namespace {
 bool can_run(Target target) {
 #if defined(__x86_64__)
     if (target == Target::kPackedAvx2) return __builtin_cpu_supports("avx2");
+    if (target == Target::kPackedAvx512) {
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    }
 #endif
-    return target != Target::kPackedAvx2;
+    return target < Target::kPackedAvx2;
 }
 
 struct Registry {
     std::map<std::string, KernelInfo> kernels;
-    std::map<std::string, Target> packed_target;  ///< which target `packed` came from
-    std::vector<SourceFile> sources;              ///< ordered by path, the language's included
+    std::vector<SourceFile> sources;  ///< ordered by path, the language's included
 };
 
 Registry& registry() {
-    static Registry instance{{}, {}, {language_sources().begin(), language_sources().end()}};
+    static Registry instance{{}, {language_sources().begin(), language_sources().end()}};
     return instance;
 }
 
@@ -55,6 +58,7 @@ bool add_kernel(const std::string& name, KernelInfo info) {
     KernelInfo& known = registry().kernels[name];
     info.scalar = known.scalar;
     info.packed = known.packed;
+    info.packed_forms = known.packed_forms;
     if (info.space.empty()) info.file = from_project_root(info.file);
     known = std::move(info);
     return true;
@@ -66,13 +70,9 @@ bool add_range_function(Target target, const std::string& name, RangeFunction fu
         info.scalar = function;
         return true;
     }
-    auto [known, is_new] = registry().packed_target.try_emplace(name, target);
-    if (can_run(target) && (is_new || target > known->second)) {
-        known->second = target;
-        info.packed = function;
-    } else if (is_new) {
-        registry().packed_target.erase(known);
-    }
+    if (!can_run(target)) return true;
+    info.packed_forms[target] = function;
+    info.packed = info.packed_forms.rbegin()->second;
     return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -46,6 +47,11 @@ using kernel_space = KernelSpace<"">;  ///< of Weft's own kernels
 /// Runs one kernel over items [begin, end). `arguments` points to one value per parameter.
 using RangeFunction = void (*)(int begin, int end, const void* const* arguments);
 
+/// What kernels are compiled for. kPacked is built for the baseline of the architecture; for
+/// x86-64, kPackedAvx2 and kPackedAvx512, whose 8 lanes have 32 registers and masks of their own
+/// (F, VL, DQ and BW, as all processors since Skylake's servers have them together).
+enum class Target { kScalar, kPacked, kPackedAvx2, kPackedAvx512 };
+
 /// All that is known of one kernel.
 struct KernelInfo {
     std::string_view name;   ///< without its namespace
@@ -55,6 +61,8 @@ struct KernelInfo {
     std::string_view parameter_text;  ///< as they are written
     RangeFunction scalar = nullptr;   ///< one item at a time
     RangeFunction packed = nullptr;   ///< 8 lanes, on the best instructions that this processor has
+    /// All forms of 8 lanes that this processor can run.
+    std::map<Target, RangeFunction> packed_forms = {};
 };
 
 /// The kernel of that name, with its namespace: "heat::diffuse". Every kernel is registered before
@@ -65,9 +73,6 @@ const KernelInfo& kernel_info(const std::string& name);
 std::vector<const KernelInfo*> all_kernels();
 
 // ---- registration, by WEFT_KERNEL ----
-
-/// kPacked is built for the baseline of the architecture, kPackedAvx2 (x86-64) for AVX2.
-enum class Target { kScalar, kPacked, kPackedAvx2 };
 
 /// The names live as long as the program. name: with its namespace.
 bool add_kernel(const std::string& name, KernelInfo info);

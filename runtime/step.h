@@ -41,7 +41,8 @@ struct Dependency {
 /// does not have, one buffer in units of two kinds, tasks after seal().
 class Step {
 public:
-    /// Adds a task; chain .reads(), .updates() on the result at once.
+    /// Adds a task; chain .reads(), .updates() on the result at once. Bodies, buffers and strip
+    /// tables must outlive the step, so temporaries of them do not compile.
     class Adding {
     public:
         Adding(Step& step, int task) : step_(step), task_(task) {}
@@ -49,11 +50,14 @@ public:
         Adding& reads(BufferStorage& buffer, const Segments& strips);
         /// The items of other strips than its own.
         Adding& reads(BufferStorage& buffer, const Segments& strips, int begin, int end);
+        Adding& reads(BufferStorage& buffer, const Segments&& strips) = delete;
+        Adding& reads(BufferStorage& buffer, const Segments&& strips, int begin, int end) = delete;
         /// All of it, of which each instance needs rows of its own: the step can then be run for no
         /// more instances than there are rows.
         Adding& reads_by_instance(BufferStorage& buffer, int elements_per_instance = 1);
         Adding& updates(BufferStorage& buffer, int begin, int end);
         Adding& updates(BufferStorage& buffer, const Segments& strips);
+        Adding& updates(BufferStorage& buffer, const Segments&& strips) = delete;
 
     private:
         Adding& access(const Access& access);
@@ -63,6 +67,8 @@ public:
     /// Adds a copy of a task of another step.
     void add(const Task& task);
     Adding add(const TaskBody& body, int iteration, StripRange strips, RegionId region = {});
+    Adding add(const TaskBody&& body, int iteration, StripRange strips,
+               RegionId region = {}) = delete;
 
     /// Finds the dependencies; call once, when all tasks are there.
     void seal();

@@ -73,7 +73,7 @@ public:
         : work_(work), options_(options) {
         check_work(work, devices.size());
         carried_ = carried_by(work);
-        sizes_.emplace(work);
+        known_.emplace(work);
         run_.emplace(work, work.strip_count(), std::move(devices),
                      PlanningOptions{options.plan, std::nullopt, options.cost_file,
                                      options.device_options.strict_math});
@@ -95,6 +95,7 @@ public:
 
     void replay(const RunDescription& run, const FrameRecord& frame) {
         if (frame.substeps < 1) refuse_replay(frame.frame, "its instances were not recorded");
+        known_->check();
         RecordedPlans plans(run, work_.strip_count(), [&](const Division& division) {
             return work_.make_step(division.partition().spread(work_.iterate_count()));
         });
@@ -172,7 +173,7 @@ private:
                          std::to_string(instances));
         }
         if (is_finished_) throw Misuse("the run was finished: there are no frames behind finish()");
-        sizes_->check();
+        known_->check();
         FrameRecord frame;
         frame.frame = static_cast<std::uint32_t>(frame_);
         frame.substeps = static_cast<std::uint32_t>(instances);
@@ -223,7 +224,7 @@ private:
     Work& work_;
     RunnerOptions options_;
     std::vector<BufferStorage*> carried_;
-    std::optional<KnownSizes> sizes_;
+    std::optional<KnownBuffers> known_;
     std::optional<PlannedExecutor> run_;
     std::optional<TraceWriter> trace_;
     std::vector<std::string> warnings_;

@@ -55,7 +55,8 @@ public:
     /// Runs the step so many times in a row, by one plan. Instances are numbered from 0. Gives how
     /// long it was planned to take, and took; with options.trace also each task (plan, executions),
     /// which replay() needs. Throws Misuse for fewer than one, behind finish(), and if a buffer was
-    /// resized; RunError if the last device is lost.
+    /// resized or a strip table changed since the runner was made; RunError if the last device is
+    /// lost.
     FrameRecord advance(int instances);
     /// Runs a recorded frame again: every task on the recorded device, in the recorded order. Where
     /// the runner has fewer devices than the trace, they do the others' tasks: the same bits.

@@ -33,13 +33,22 @@ void check_alive(const TaskBody& body, const Launch& launch) {
                  "outlive the work");
 }
 
+long value_count(const Segments& strips) {
+    return 1L + static_cast<long>(strips.strip_count) * strips.colour_count;
+}
+
+std::vector<int> values_of(const Segments& strips) {
+    const int* first = strips.begin->data() + strips.first;
+    return {first, first + value_count(strips)};
+}
+
 /// The values of a strip table have to be there, and to ascend.
 void check_strips(const TaskBody& body, const Segments& strips) {
     if (strips.begin == nullptr)
         throw Misuse("task body " + quoted(body.name) + ": no strip table");
     const std::string where =
         "task body " + quoted(body.name) + ", strips " + quoted(strips.begin->name());
-    const long values = 1L + static_cast<long>(strips.strip_count) * strips.colour_count;
+    const long values = value_count(strips);
     if (static_cast<long>(strips.begin->count()) < strips.first + values) {
         throw Misuse(where + ": " + std::to_string(strips.strip_count) + " strips take " +
                      std::to_string(strips.first + values) + " values, and it has " +
@@ -102,28 +111,52 @@ void check_work(Work& work, std::size_t devices) {
     for (const Task& task : step.tasks()) check_accesses(task);
 }
 
-KnownSizes::KnownSizes(Work& work) {
-    std::set<const BufferStorage*> seen;
+KnownBuffers::KnownBuffers(Work& work) {
+    std::set<const BufferStorage*> resized;
     for (RowTable* table : work.tables()) {
-        for (BufferStorage* column : table->resized_buffers()) seen.insert(column);
+        for (const BufferStorage* column : table->resized_buffers()) resized.insert(column);
     }
-    const auto add = [&](const BufferStorage* buffer) {
-        if (buffer == nullptr || !seen.insert(buffer).second) return;
-        generations_.emplace_back(buffer, buffer->generation());
+    const auto stays = [&](const BufferStorage* buffer) {
+        return buffer != nullptr && !resized.contains(buffer);
     };
     for (const TaskBody* body : work.bodies()) {
         for (const Launch& launch : body->launches) {
-            add(launch.segments.begin);
-            for (const Argument& argument : launch.arguments) add(argument.buffer);
+            if (stays(launch.segments.begin)) add_strips(*body, launch.segments);
+            for (const Argument& argument : launch.arguments) {
+                if (stays(argument.buffer)) add_size(*argument.buffer);
+            }
         }
     }
 }
 
-void KnownSizes::check() const {
+void KnownBuffers::add_size(const BufferStorage& buffer) {
+    const auto is_it = [&](const auto& known) { return known.first == &buffer; };
+    if (std::ranges::any_of(generations_, is_it)) return;
+    generations_.emplace_back(&buffer, buffer.generation());
+}
+
+void KnownBuffers::add_strips(const TaskBody& body, const Segments& strips) {
+    add_size(*strips.begin);
+    const auto is_it = [&](const Strips& known) {
+        return known.table.begin == strips.begin && known.table.first == strips.first &&
+               value_count(known.table) == value_count(strips);
+    };
+    if (std::ranges::any_of(strips_, is_it)) return;
+    strips_.push_back({strips, body.name, values_of(strips)});
+}
+
+void KnownBuffers::check() const {
     for (const auto& [buffer, generation] : generations_) {
         if (buffer->generation() == generation) continue;
         throw Misuse("buffer " + quoted(buffer->name()) +
                      " was resized while a runner has it; make the runner anew");
+    }
+    for (const Strips& known : strips_) {
+        if (values_of(known.table) == known.values) continue;
+        throw Misuse("task body " + quoted(known.body) + ", strips " +
+                     quoted(known.table.begin->name()) +
+                     ": where strips begin was changed while a runner plans by it; make the work "
+                     "and its runner anew");
     }
 }
 

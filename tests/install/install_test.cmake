@@ -79,7 +79,7 @@ expect_same_states(${WORK}/examples/build/cloth)
 copy_out(${ROOT}/docs/library.md ${WORK}/rod CMakeLists.txt rod.h main.cpp)
 build(rod)
 expect_same_states(${WORK}/rod/build/rod)
-copy_out(${ROOT}/docs/library.md ${WORK}/consumer graph.cpp sheet.cpp)
+copy_out(${ROOT}/docs/library.md ${WORK}/consumer again.cpp graph.cpp sheet.cpp)
 
 # Kernels in a static and in a shared library, in the slowest kind of build; and every header alone.
 file(COPY ${ROOT}/tests/install/consumer DESTINATION ${WORK})

@@ -1,5 +1,5 @@
-// All forms of one kernel give the same bits: scalar, packed for the baseline, packed for this
-// processor.
+// All forms of one kernel that this processor can run give the same bits: scalar, packed for the
+// baseline, packed for better instructions.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <set>
 
 #include "kernels/registry.h"
-#include "tests/kernels/baseline_kernels.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -34,17 +33,18 @@ TEST_P(EveryKernel, HasATestCase) {
 TEST_P(EveryKernel, HasTheSameBitsInAllForms) {
     const kernels::KernelInfo& kernel = *GetParam();
     ASSERT_NE(kernel.scalar, nullptr);
-    ASSERT_NE(kernel.packed, nullptr);
-    ASSERT_NE(baseline_packed(kernel.name), nullptr);
+    ASSERT_TRUE(kernel.packed_forms.contains(kernels::Target::kPacked));
+    ASSERT_EQ(kernel.packed, kernel.packed_forms.rbegin()->second);
     for (const Flavour flavour : {Flavour::kRandom, Flavour::kDegenerate}) {
         for (const int items : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 150}) {
             for (const int begin : {0, items / 3}) {
                 SCOPED_TRACE(testing::Message() << "items " << begin << " to " << items);
                 const auto scalar = result_of(kernel, kernel.scalar, items, begin, flavour);
                 expect_finite(*scalar);
-                expect_same(*scalar, *result_of(kernel, kernel.packed, items, begin, flavour));
-                expect_same(*scalar, *result_of(kernel, baseline_packed(kernel.name), items, begin,
-                                                flavour));
+                for (const auto& [target, function] : kernel.packed_forms) {
+                    SCOPED_TRACE(testing::Message() << "target " << static_cast<int>(target));
+                    expect_same(*scalar, *result_of(kernel, function, items, begin, flavour));
+                }
             }
         }
     }
@@ -90,8 +90,10 @@ TEST_P(EveryKernel, TouchesNothingButItsItems) {
         std::set<Word> expected;
         for (int i = begin; i < end; ++i)
             expected.merge(std::set(of_item[static_cast<std::size_t>(i)]));
-        for (const auto function : {kernel.scalar, kernel.packed, baseline_packed(kernel.name)}) {
-            EXPECT_EQ(run(function, begin, end), expected) << "items " << begin << " to " << end;
+        EXPECT_EQ(run(kernel.scalar, begin, end), expected) << "items " << begin << " to " << end;
+        for (const auto& [target, function] : kernel.packed_forms) {
+            EXPECT_EQ(run(function, begin, end), expected)
+                << "items " << begin << " to " << end << ", target " << static_cast<int>(target);
         }
     }
 }

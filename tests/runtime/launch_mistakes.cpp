@@ -2,6 +2,7 @@
 
 #include "kernels/motion.h"
 #include "runtime/launch.h"
+#include "runtime/step.h"
 
 weft::Launch bound(const weft::Segments& segments, weft::Buffer<weft::float4>& positions,
                    weft::Buffer<weft::float4>& rest, weft::Buffer<weft::float4>& motions,
@@ -14,6 +15,9 @@ weft::Launch bound(const weft::Segments& segments, weft::Buffer<weft::float4>& p
     using weft::launch;
     using weft::kernels::move_pins;
 #if MISTAKE == 0
+    weft::Step step;
+    const weft::TaskBody body;
+    step.add(body, 0, {0, 1}).reads(rest, segments, 0, 1).updates(positions, segments);
     return launch(move_pins, segments, positions, vertices, rest, motions, 2, 1, kInstance);
 #elif MISTAKE == 1   // an argument is missing
     return launch(move_pins, segments, positions, vertices, rest, motions, 2, kInstance);
@@ -37,5 +41,14 @@ weft::Launch bound(const weft::Segments& segments, weft::Buffer<weft::float4>& p
 #elif MISTAKE == 10  // data that must not change, where the kernel writes
     const weft::Buffer<weft::float4>& fixed = positions;
     return launch(move_pins, segments, fixed, vertices, rest, motions, 2, 1, kInstance);
+#elif MISTAKE == 11  // a body that is gone before its step is run
+    weft::Step step;
+    step.add(weft::TaskBody{"pins", 0, {}}, 0, {0, 1});
+    return {};
+#elif MISTAKE == 12  // a strip table that is gone before its step is run
+    weft::Step step;
+    const weft::TaskBody body;
+    step.add(body, 0, {0, 1}).updates(positions, weft::Segments(segments));
+    return {};
 #endif
 }

@@ -356,6 +356,17 @@ TEST(Misuse, ABufferThatIsResizedUnderARunner) {
     expect_message([&] { runner.advance(1); }, {"'now'", "resized"});
 }
 
+TEST(Misuse, AStripTableThatIsChangedUnderARunner) {
+    OwnWork own;
+    Runner runner(own.work, {.devices = "cpu/1"});
+    runner.advance(1);
+    const int begin = own.begin[1];
+    own.begin[1] = begin + 1;
+    expect_message([&] { runner.advance(1); }, {"strips '" + own.begin.name() + "'", "changed"});
+    own.begin[1] = begin;
+    runner.advance(1);
+}
+
 TEST(Misuse, FramesBehindTheEnd) {
     OwnWork own;
     Runner runner(own.work, {.devices = "cpu/1", .name = "two options in braces"});
