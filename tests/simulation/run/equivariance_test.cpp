@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulation/scene/read_scene.h"
+#include "simulation/start_checks.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -106,6 +107,24 @@ TEST_P(Equivariant, TimesScaledByPowersOfTwoChangeNoBit) {
     const auto seconds = run_scaled(1.0);
     EXPECT_EQ(seconds, run_scaled(std::pow(2.0, -10)));
     EXPECT_EQ(seconds, run_scaled(std::pow(2.0, 6)));
+}
+
+/// Where single precision no longer holds the motion, the start says so, and only there.
+TEST_P(Equivariant, PlacesTooFarForSinglePrecisionAreTold) {
+    const auto warnings_at = [](double far) {
+        Scene scene = scene_of(kTiedBrick);
+        scene.obstacles.clear();
+        for (Transform* body : {&scene.cloths[0].transform, &scene.solids[0].transform}) {
+            body->translate.x += far;
+        }
+        Warnings warnings;
+        warn_of_start(Model(scene, warnings), warnings);
+        return warnings;
+    };
+    EXPECT_TRUE(warnings_at(100.0).empty());
+    const Warnings far = warnings_at(8000.0);
+    ASSERT_EQ(far.size(), 1U);
+    EXPECT_NE(far[0].find("are rounded to"), std::string::npos) << far[0];
 }
 
 /// The unit of mass goes along, so that energies stay: cloth that rounding alone bends has energies
