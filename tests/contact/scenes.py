@@ -1,6 +1,8 @@
 """Small scenes in which surfaces try to get through each other, in frames of one substep."""
 
 import math
+import random
+import re
 
 SUBSTEP = 1.0 / 600.0
 
@@ -48,6 +50,22 @@ young = {young}
 poisson = 0.3
 {place}
 """
+
+
+def jittered(text, seed):
+    """The scene with its bodies up to 1 mm aside, gaps up to 0.4 mm other, and gravity another by
+    up to 1 % and 0.1 m/s^2: what must not matter to whether anything passes."""
+    chance = random.Random(seed)
+
+    def moved(match, ranges):
+        values = [float(value) for value in match[2].split(",")]
+        near = [value + chance.uniform(-by(value), by(value)) for value, by in zip(values, ranges)]
+        return f"{match[1]}[{', '.join(map(repr, near))}]"
+
+    places = [lambda _: 0.001, lambda _: 0.0002, lambda _: 0.001]
+    pull = [lambda value: 0.1 + 0.01 * abs(value)] * 3
+    text = re.sub(r"^(translate = )\[([^\]]*)\]", lambda m: moved(m, places), text, flags=re.M)
+    return re.sub(r"^(gravity = )\[([^\]]*)\]", lambda m: moved(m, pull), text, flags=re.M)
 
 
 HELD = "pins = { box = [[-9, -9, -9], [9, 9, 9]] }"
