@@ -23,6 +23,7 @@ public:
 
     /// [arity * count] column-major
     Buffer<int>& vertices() { return vertices_; }
+    const Buffer<int>& vertices() const { return vertices_; }
     /// The elements of a phase.
     const Segments& segments(Phase phase) const { return segments_[phase]; }
 

@@ -173,7 +173,7 @@ public:
 
     /// [J]
     virtual double energy(int element, const Vec3* x) const = 0;
-    /// Of elements [begin, end), one after the other [J]; by sum_of_energies().
+    /// Of elements [begin, end), added up as LaneSum does [J]; by sum_of_energies().
     virtual double sum_energies(int begin, int end, std::span<const float4> positions) const = 0;
     /// dE/dx of each corner [N]
     virtual void gradient(int element, const Vec3* x, Vec3* gradient) const = 0;
@@ -190,10 +190,6 @@ public:
                                                std::span<const float4> positions) const;
 
 protected:
-    /// Where the family's own energy() is known, so that no call is left in the loop.
-    template <class Own>
-    static double sum_of_energies(const Own& family, int begin, int end,
-                                  std::span<const float4> positions);
     /// The edges of a triangle or tetrahedron whose rest edges from the first corner are the
     /// columns of the inverse of the matrix with rows b [1/m]. Of a triangle, b[2] is across.
     static void add_edges_of(std::span<const int> corners, const std::array<Vec3, 3>& b,
@@ -203,21 +199,5 @@ private:
     FamilyNames names_;
     Elements elements_;
 };
-
-template <class Own>
-double ElementFamily::sum_of_energies(const Own& family, int begin, int end,
-                                      std::span<const float4> positions) {
-    double sum = 0.0;
-    std::array<Vec3, kMaxCorners> x;
-    for (int e = begin; e < end; ++e) {
-        std::size_t corner = 0;
-        for (const int v : family.corners(e)) {
-            const float4& p = positions[static_cast<std::size_t>(v)];
-            x[corner++] = {p.x, p.y, p.z};
-        }
-        sum += family.Own::energy(e, x.data());
-    }
-    return sum;
-}
 
 }  // namespace weft

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "runtime/lane_sum.h"
 #include "runtime/tbb/parallel.h"
 #include "simulation/families/convert.h"
 
@@ -15,6 +17,31 @@ namespace {
 double length_of(const Edge& edge, std::span<const float4> positions) {
     return length(to_vec3(positions[static_cast<std::size_t>(edge.a)]) -
                   to_vec3(positions[static_cast<std::size_t>(edge.b)]));
+}
+
+double strain_of(const Edge& edge, std::span<const float4> positions) {
+    return std::abs(length_of(edge, positions) / edge.rest - 1.0);
+}
+
+struct BlockStrain {
+    double squares = 0.0;
+    double most = 0.0;
+};
+
+WEFT_WIDE BlockStrain strain_of_block(std::span<const Edge> edges,
+                                      std::span<const float4> positions) {
+    constexpr std::size_t kAtOnce = 256;
+    std::array<double, kAtOnce> strains;
+    LaneSum squares;
+    LaneMaximum most;
+    for (; !edges.empty(); edges = edges.subspan(std::min(kAtOnce, edges.size()))) {
+        const std::size_t count = std::min(kAtOnce, edges.size());
+        for (std::size_t e = 0; e < count; ++e) strains[e] = strain_of(edges[e], positions);
+        most.add({strains.data(), count});
+        for (std::size_t e = 0; e < count; ++e) strains[e] *= strains[e];
+        squares.add({strains.data(), count});
+    }
+    return {squares.total(), most.total()};
 }
 
 }  // namespace
@@ -38,25 +65,16 @@ double Edges::shortest() const {
 }
 
 Strain Edges::strain(std::span<const float4> positions) const {
-    struct Block {
-        double squares = 0.0;
-        Strain worst;
-    };
-    std::vector<Block> blocks(static_cast<std::size_t>(block_count(count())));
+    std::vector<BlockStrain> blocks(static_cast<std::size_t>(block_count(count())));
     for_each_block(count(), [&](int block, int begin, int end) {
-        Block& own = blocks[static_cast<std::size_t>(block)];
-        for (int e = begin; e < end; ++e) {
-            const Edge& edge = edges_[static_cast<std::size_t>(e)];
-            const double strain = std::abs(length_of(edge, positions) / edge.rest - 1.0);
-            own.squares += strain * strain;
-            if (strain > own.worst.most) own.worst = {0.0, strain, e};
-        }
+        const std::span<const Edge> own(edges_.data() + begin, edges_.data() + end);
+        blocks[static_cast<std::size_t>(block)] = strain_of_block(own, positions);
     });
     Strain strain;
     double squares = 0.0;
-    for (const Block& block : blocks) {
+    for (const BlockStrain& block : blocks) {
         squares += block.squares;
-        if (block.worst.most > strain.most) strain = block.worst;
+        strain.most = std::max(strain.most, block.most);
     }
     if (count() > 0) strain.rms = std::sqrt(squares / count());
     return strain;
@@ -64,11 +82,12 @@ Strain Edges::strain(std::span<const float4> positions) const {
 
 std::optional<BadState> Edges::find_overstretched(std::span<const float4> positions,
                                                   const Strain& strain, double most) const {
-    if (strain.edge < 0 || strain.most <= most) return std::nullopt;
-    const Edge& edge = edges_[static_cast<std::size_t>(strain.edge)];
-    return BadState{edge.a, fmt::format("edge of {:g} m is stretched to {:g} m, beyond "
-                                        "guard.max_strain = {:g}",
-                                        edge.rest, length_of(edge, positions), most)};
+    if (edges_.empty() || strain.most <= most) return std::nullopt;
+    const auto worst = std::ranges::max_element(
+        edges_, {}, [&](const Edge& edge) { return strain_of(edge, positions); });
+    return BadState{worst->a, fmt::format("edge of {:g} m is stretched to {:g} m, beyond "
+                                          "guard.max_strain = {:g}",
+                                          worst->rest, length_of(*worst, positions), most)};
 }
 
 }  // namespace weft

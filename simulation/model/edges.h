@@ -13,7 +13,6 @@ namespace weft {
 struct Strain {
     double rms = 0.0;
     double most = 0.0;
-    int edge = -1;  ///< that has the most; -1: there is none
 };
 
 /// The edges of all cloths and solids, each once, whatever elements lie along it. One measure of

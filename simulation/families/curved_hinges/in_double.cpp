@@ -2,6 +2,7 @@
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/curved_hinge.h"
 #include "simulation/families/curved_hinges/curved_hinges.h"
+#include "simulation/families/sum_of_energies.h"
 
 namespace weft {
 
@@ -29,8 +30,17 @@ double CurvedHinges::energy(int hinge, const Vec3* x) const {
     return 0.5 * kernels::dot3(b, b);
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const CurvedHinges& all, int begin, int end,
+                        std::span<const float4> positions) {
+    return sum_of_energies<4>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double CurvedHinges::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void CurvedHinges::gradient(int hinge, const Vec3* x, Vec3* gradient) const {

@@ -2,6 +2,7 @@
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/hinge.h"
 #include "simulation/families/hinges/hinges.h"
+#include "simulation/families/sum_of_energies.h"
 
 namespace weft {
 
@@ -29,8 +30,16 @@ double Hinges::energy(int hinge, const Vec3* x) const {
     return kernels::hinge_energy(bend(weights_of(*this, hinge), x));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const Hinges& all, int begin, int end, std::span<const float4> positions) {
+    return sum_of_energies<4>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double Hinges::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void Hinges::gradient(int hinge, const Vec3* x, Vec3* gradient) const {

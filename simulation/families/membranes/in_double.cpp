@@ -2,6 +2,7 @@
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/membrane.h"
 #include "simulation/families/membranes/membranes.h"
+#include "simulation/families/sum_of_energies.h"
 
 namespace weft {
 
@@ -24,8 +25,17 @@ double Membranes::energy(int triangle, const Vec3* x) const {
     return kernels::membrane_energy(deformed(*this, triangle, x));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const Membranes& all, int begin, int end,
+                        std::span<const float4> positions) {
+    return sum_of_energies<3>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double Membranes::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void Membranes::gradient(int triangle, const Vec3* x, Vec3* gradient) const {

@@ -2,6 +2,7 @@
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/spring.h"
 #include "simulation/families/springs/springs.h"
+#include "simulation/families/sum_of_energies.h"
 
 namespace weft {
 
@@ -10,8 +11,16 @@ double Springs::energy(int spring, const Vec3* x) const {
                                   stiffness(spring));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const Springs& all, int begin, int end, std::span<const float4> positions) {
+    return sum_of_energies<2>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double Springs::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void Springs::gradient(int spring, const Vec3* x, Vec3* gradient) const {

@@ -2,6 +2,7 @@
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/stitch.h"
 #include "simulation/families/stitches/stitches.h"
+#include "simulation/families/sum_of_energies.h"
 
 namespace weft {
 
@@ -18,8 +19,17 @@ double Stitches::energy(int stitch, const Vec3* x) const {
                                   stiffness(stitch));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const Stitches& all, int begin, int end,
+                        std::span<const float4> positions) {
+    return sum_of_energies<2>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double Stitches::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void Stitches::gradient(int stitch, const Vec3* x, Vec3* gradient) const {

@@ -1,6 +1,7 @@
 #include "simulation/families/in_double.h"
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/tetrahedron.h"
+#include "simulation/families/sum_of_energies.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
 
 namespace weft {
@@ -26,8 +27,17 @@ double Tetrahedra::energy(int tetrahedron, const Vec3* x) const {
     return kernels::tetrahedron_energy(deformed(*this, tetrahedron, x));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const Tetrahedra& all, int begin, int end,
+                        std::span<const float4> positions) {
+    return sum_of_energies<4>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double Tetrahedra::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void Tetrahedra::gradient(int tetrahedron, const Vec3* x, Vec3* gradient) const {

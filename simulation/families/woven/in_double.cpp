@@ -1,6 +1,7 @@
 #include "simulation/families/in_double.h"
 // The language layer in double precision has to come before all else.
 #include "kernels/energies/woven.h"
+#include "simulation/families/sum_of_energies.h"
 #include "simulation/families/woven/woven.h"
 
 namespace weft {
@@ -24,8 +25,17 @@ double WovenCloth::energy(int triangle, const Vec3* x) const {
     return kernels::woven_energy(deformed(*this, triangle, x));
 }
 
+namespace {
+
+WEFT_WIDE double sum_of(const WovenCloth& all, int begin, int end,
+                        std::span<const float4> positions) {
+    return sum_of_energies<3>(all, begin, end, positions);
+}
+
+}  // namespace
+
 double WovenCloth::sum_energies(int begin, int end, std::span<const float4> positions) const {
-    return sum_of_energies(*this, begin, end, positions);
+    return sum_of(*this, begin, end, positions);
 }
 
 void WovenCloth::gradient(int triangle, const Vec3* x, Vec3* gradient) const {
