@@ -8,7 +8,9 @@ namespace {
 
 std::vector<int> lengths_of(const BlockList& list) {
     std::vector<int> lengths;
-    for (const auto& block : list.blocks) lengths.push_back(static_cast<int>(block.size()));
+    for (int block = 0; block < list.count(); ++block) {
+        lengths.push_back(static_cast<int>(list.blocks[block].size()));
+    }
     return lengths;
 }
 
@@ -30,7 +32,7 @@ BlockRowTables::BlockRowTables(const std::string& name, const Elements& elements
       entries_(entries()) {
     const auto arity = static_cast<std::size_t>(elements.arity());
     for (int block = 0; block < list.count(); ++block) {
-        const auto& row = list.blocks[static_cast<std::size_t>(block)];
+        const auto row = list.blocks[block];
         for (std::size_t e = 0; e < row.size(); ++e) {
             const std::size_t place = rows_.entry(block, static_cast<int>(e));
             const Entry& entry = entries_[place] = {row[e].element, from(row[e], elements.arity())};

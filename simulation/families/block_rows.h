@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "simulation/families/elements.h"
+#include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
+#include "simulation/topology/grouped.h"
 
 namespace weft {
 
@@ -18,10 +20,10 @@ struct BlockList {
         int j = 0;  ///< corner of the block's row
         int k = 0;  ///< and of its column
     };
-    std::vector<std::vector<Contribution>> blocks;
+    Grouped<Contribution> blocks;
     std::vector<int> segment_begin;  ///< of the blocks, strip by strip
 
-    int count() const { return static_cast<int>(blocks.size()); }
+    int count() const { return blocks.count(); }
 };
 
 /// Per block a row of its contributions. Entries that only fill a row up name one vertex for all
@@ -39,8 +41,7 @@ public:
 
     /// Gives the numbers of an entry, one per column of a table. corners: of the element, that of
     /// the block's row first, then that of its column, then the others
-    using Numbers =
-        std::function<std::vector<double>(int element, const std::array<int, 4>& corners)>;
+    using Numbers = std::function<FewNumbers(int element, const std::array<int, 4>& corners)>;
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
 

@@ -18,7 +18,7 @@ public:
           material_(family.names().name + ".block_material",
                     tables_.entries() * columns_of(family)) {
         tables_.fill(shape_, [&](int element, const std::array<int, 4>& corners) {
-            std::vector<double> numbers;
+            FewNumbers numbers;
             for (int c = 1; c < family.elements().arity(); ++c) {
                 const int corner = corners[static_cast<std::size_t>(c)];
                 for (const double b : family.shape_gradient(element, corner)) numbers.push_back(b);
@@ -27,7 +27,7 @@ public:
         });
         tables_.fill(material_, [&](int element, const std::array<int, 4>&) {
             const auto count = static_cast<std::size_t>(family.count());
-            std::vector<double> numbers;
+            FewNumbers numbers;
             for (std::size_t c = 0; c < columns_of(family); ++c) {
                 const std::size_t place = c * count + static_cast<std::size_t>(element);
                 numbers.push_back(static_cast<double>(family.material[place]));

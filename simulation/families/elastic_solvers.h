@@ -22,7 +22,7 @@ public:
           material_(family.names().name + ".row_material",
                     rows_.entries() * columns_of(family.material, family)) {
         rows_.fill(shape_, [&](int element, int corner) {
-            std::vector<double> numbers;
+            FewNumbers numbers;
             for (int o = 1; o < family.elements().arity(); ++o) {
                 const int other = (corner + o) % family.elements().arity();
                 for (const double b : family.shape_gradient(element, other)) numbers.push_back(b);
@@ -30,7 +30,7 @@ public:
             return numbers;
         });
         rows_.fill(material_, [&](int element, int) {
-            std::vector<double> numbers;
+            FewNumbers numbers;
             for (std::size_t c = 0; c < columns_of(family.material, family); ++c) {
                 numbers.push_back(column(family.material, c, family, element));
             }

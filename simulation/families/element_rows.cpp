@@ -3,15 +3,14 @@
 namespace weft {
 
 ElementRows::Corners::Corners(const Elements& elements, const VertexItems& items)
-    : at(static_cast<std::size_t>(items.count())) {
-    for (int e = 0; e < elements.count(); ++e) {
-        const auto vertices = elements.vertices_of(e);
-        for (int k = 0; k < elements.arity(); ++k) {
-            at[static_cast<std::size_t>(vertices[static_cast<std::size_t>(k)])].push_back({e, k});
-        }
-    }
+    : at(items.count(), [&](const auto& put) {
+          for (int e = 0; e < elements.count(); ++e) {
+              int corner = 0;
+              for (const int vertex : elements.vertices_of(e)) put(vertex, Corner{e, corner++});
+          }
+      }) {
     for (int i = 0; i < items.count(); ++i) {
-        lengths.push_back(static_cast<int>(at[static_cast<std::size_t>(items.vertex(i))].size()));
+        lengths.push_back(static_cast<int>(at[items.vertex(i)].size()));
     }
 }
 
@@ -27,7 +26,7 @@ ElementRows::ElementRows(const std::string& name, const Elements& elements,
     const auto others = static_cast<std::size_t>(elements.arity() - 1);
     for (int i = 0; i < items.count(); ++i) {
         const int vertex = items.vertex(i);
-        const auto& row = corners.at[static_cast<std::size_t>(vertex)];
+        const auto row = corners.at[vertex];
         for (int k = 0; k < rows_.length(i); ++k) {
             const std::size_t entry = rows_.entry(i, k);
             for (std::size_t o = 0; o < others; ++o) others_[o * entries() + entry] = vertex;

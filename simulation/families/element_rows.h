@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "simulation/families/family.h"
+#include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
+#include "simulation/topology/grouped.h"
 
 namespace weft {
 
@@ -24,7 +26,7 @@ public:
     std::size_t entries() const { return static_cast<std::size_t>(rows_.entry_count()); }
 
     /// Gives the numbers of an entry, one per column of a table. corner: the vertex' own
-    using Numbers = std::function<std::vector<double>(int element, int corner)>;
+    using Numbers = std::function<FewNumbers(int element, int corner)>;
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
 
@@ -36,8 +38,8 @@ private:
     };
     /// Which corners of elements are at each vertex.
     struct Corners {
-        std::vector<std::vector<Corner>> at;  ///< [vertices]
-        std::vector<int> lengths;             ///< [items] how many
+        Grouped<Corner> at;        ///< [vertices]
+        std::vector<int> lengths;  ///< [items] how many
 
         Corners(const Elements& elements, const VertexItems& items);
     };

@@ -9,8 +9,8 @@ namespace {
 class NearlyFlatBlocks final : public BlockRows {
 public:
     NearlyFlatBlocks(const CurvedHinges& hinges, const BlockList& list)
-        : weights_("curved_hinges.block_weights", list.blocks.size()) {
-        for (std::size_t block = 0; block < list.blocks.size(); ++block) {
+        : weights_("curved_hinges.block_weights", static_cast<std::size_t>(list.count())) {
+        for (int block = 0; block < list.count(); ++block) {
             double sum = 0.0;
             for (const auto& c : list.blocks[block]) {
                 sum -= hinges.weight(c.element, c.j) * hinges.weight(c.element, c.k);
@@ -34,13 +34,13 @@ public:
         : tables_("curved_hinges", hinges.elements(), list),
           weights_("curved_hinges.block_weights", 7 * tables_.entries()) {
         tables_.fill(weights_, [&](int hinge, const std::array<int, 4>& at) {
-            return std::vector{hinges.weight(hinge, at[0]),
-                               hinges.weight(hinge, at[1]),
-                               hinges.pair_weight(hinge, at[0], at[1]),
-                               hinges.pair_weight(hinge, at[0], at[2]),
-                               hinges.pair_weight(hinge, at[0], at[3]),
-                               hinges.pair_weight(hinge, at[1], at[2]),
-                               hinges.pair_weight(hinge, at[1], at[3])};
+            return FewNumbers{hinges.weight(hinge, at[0]),
+                              hinges.weight(hinge, at[1]),
+                              hinges.pair_weight(hinge, at[0], at[1]),
+                              hinges.pair_weight(hinge, at[0], at[2]),
+                              hinges.pair_weight(hinge, at[0], at[3]),
+                              hinges.pair_weight(hinge, at[1], at[2]),
+                              hinges.pair_weight(hinge, at[1], at[3])};
         });
     }
 

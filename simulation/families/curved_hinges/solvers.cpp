@@ -13,8 +13,7 @@ public:
         : rows_("curved_hinges", hinges.elements(), items),
           weights_("curved_hinges.row_weights", 6 * rows_.entries()) {
         rows_.fill(weights_, [&](int hinge, int corner) {
-            const auto numbers = hinges.seen_from(hinge, corner);
-            return std::vector<double>(numbers.begin(), numbers.end());
+            return FewNumbers(hinges.seen_from(hinge, corner));
         });
     }
 

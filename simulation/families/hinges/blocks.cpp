@@ -9,13 +9,13 @@ namespace {
 class HingeBlocks final : public BlockRows {
 public:
     HingeBlocks(const Hinges& hinges, const BlockList& list)
-        : weights_("hinges.block_weights", list.blocks.size()) {
-        for (std::size_t block = 0; block < list.blocks.size(); ++block) {
+        : weights_("hinges.block_weights", static_cast<std::size_t>(list.count())) {
+        for (int block = 0; block < list.count(); ++block) {
             double sum = 0.0;
             for (const auto& c : list.blocks[block]) {
                 sum -= hinges.weight(c.element, c.j) * hinges.weight(c.element, c.k);
             }
-            weights_[block] = static_cast<float>(sum);
+            weights_[static_cast<std::size_t>(block)] = static_cast<float>(sum);
         }
     }
 

@@ -1,64 +1,86 @@
 #include <algorithm>
+#include <utility>
 
 #include "kernels/descent/hinges.h"
 #include "kernels/xpbd/hinges.h"
 #include "simulation/families/hinges/hinges.h"
 #include "simulation/families/sliced_rows.h"
+#include "simulation/topology/grouped.h"
 
 namespace weft {
 
 namespace {
 
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 /// The matrix Q of E = 1/2 x^T Q x, row by row.
 struct BendingMatrix {
     struct Weight {
         int vertex;
+        int hinge;  ///< the first that it is from
         double value;
     };
-    std::vector<std::vector<Weight>> rows;  ///< [vertices] by ascending vertex, no diagonal
-    std::vector<double> diagonal;           ///< [vertices]
+    Grouped<Weight> rows;          ///< [vertices] by ascending vertex, no diagonal
+    std::vector<int> lengths;      ///< [vertices] of the rows, without what is merged
+    std::vector<double> diagonal;  ///< [vertices]
 
     BendingMatrix(const Hinges& hinges, int vertex_count)
-        : rows(static_cast<std::size_t>(vertex_count)),
+        : rows(vertex_count,
+               [&](const auto& put) {
+                   for (int h = 0; h < hinges.count(); ++h) put_weights(hinges, h, put);
+               }),
           diagonal(static_cast<std::size_t>(vertex_count), 0.0) {
-        for (int h = 0; h < hinges.count(); ++h) add(hinges, h);
-        for (std::vector<Weight>& row : rows) merge(row);
+        add_diagonals(hinges);
+        for (int v = 0; v < vertex_count; ++v) lengths.push_back(merge(rows[v]));
+    }
+
+    std::span<const Weight> row(int vertex) const {
+        return rows[vertex].first(
+            static_cast<std::size_t>(lengths[static_cast<std::size_t>(vertex)]));
     }
 
 private:
-    void add(const Hinges& hinges, int hinge) {
+    template <class Put>
+    static void put_weights(const Hinges& hinges, int hinge, const Put& put) {
         const auto corners = hinges.corners(hinge);
-        for (std::size_t j = 0; j < corners.size(); ++j) {
-            const auto v = static_cast<std::size_t>(corners[j]);
-            const double weight = hinges.weight(hinge, static_cast<int>(j));
-            diagonal[v] += weight * weight;
-            for (std::size_t k = 0; k < corners.size(); ++k) {
+        for (int j = 0; j < std::ssize(corners); ++j) {
+            const double weight = hinges.weight(hinge, j);
+            for (int k = 0; k < std::ssize(corners); ++k) {
                 if (k == j) continue;
-                rows[v].push_back({corners[k], weight * hinges.weight(hinge, static_cast<int>(k))});
+                put(corners[at(j)],
+                    Weight{corners[at(k)], hinge, weight * hinges.weight(hinge, k)});
             }
         }
     }
 
-    static void merge(std::vector<Weight>& row) {
-        std::stable_sort(row.begin(), row.end(),
-                         [](const Weight& a, const Weight& b) { return a.vertex < b.vertex; });
-        std::vector<Weight> merged;
-        for (const Weight& weight : row) {
-            if (merged.empty() || merged.back().vertex != weight.vertex) {
-                merged.push_back(weight);
-            } else {
-                merged.back().value += weight.value;
+    void add_diagonals(const Hinges& hinges) {
+        for (int h = 0; h < hinges.count(); ++h) {
+            const auto corners = hinges.corners(h);
+            for (int j = 0; j < std::ssize(corners); ++j) {
+                diagonal[at(corners[at(j)])] += hinges.weight(h, j) * hinges.weight(h, j);
             }
         }
-        row.swap(merged);
+    }
+
+    /// Adds up the weights of each vertex, by ascending hinge; how many are left.
+    static int merge(std::span<Weight> row) {
+        std::ranges::sort(row, {}, [](const Weight& w) { return std::pair(w.vertex, w.hinge); });
+        std::size_t count = 0;
+        for (const Weight& weight : row) {
+            if (count == 0 || row[count - 1].vertex != weight.vertex) {
+                row[count++] = weight;
+            } else {
+                row[count - 1].value += weight.value;
+            }
+        }
+        return static_cast<int>(count);
     }
 };
 
 std::vector<int> row_lengths(const BendingMatrix& matrix, const VertexItems& items) {
     std::vector<int> lengths;
     for (int i = 0; i < items.count(); ++i) {
-        lengths.push_back(
-            static_cast<int>(matrix.rows[static_cast<std::size_t>(items.vertex(i))].size()));
+        lengths.push_back(matrix.lengths[static_cast<std::size_t>(items.vertex(i))]);
     }
     return lengths;
 }
@@ -88,7 +110,7 @@ private:
           diagonal_("bending.diagonal", static_cast<std::size_t>(items.count())) {
         for (int i = 0; i < items.count(); ++i) {
             const auto vertex = static_cast<std::size_t>(items.vertex(i));
-            const auto& row = matrix.rows[vertex];
+            const auto row = matrix.row(items.vertex(i));
             diagonal_[static_cast<std::size_t>(i)] = static_cast<float>(matrix.diagonal[vertex]);
             for (int k = 0; k < rows_.length(i); ++k) {
                 const std::size_t entry = rows_.entry(i, k);

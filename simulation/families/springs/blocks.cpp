@@ -11,7 +11,7 @@ public:
         : tables_("springs", springs.elements(), list),
           material_("springs.block_material", 2 * tables_.entries()) {
         tables_.fill(material_, [&](int spring, const std::array<int, 4>&) {
-            return std::vector{springs.rest_length(spring), springs.stiffness(spring)};
+            return FewNumbers{springs.rest_length(spring), springs.stiffness(spring)};
         });
     }
 

@@ -15,7 +15,7 @@ public:
         : rows_("springs", springs.elements(), items),
           material_("springs.row_material", 2 * rows_.entries()) {
         rows_.fill(material_, [&](int spring, int) {
-            return std::vector{springs.rest_length(spring), springs.stiffness(spring)};
+            return FewNumbers{springs.rest_length(spring), springs.stiffness(spring)};
         });
     }
 

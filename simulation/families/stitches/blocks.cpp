@@ -12,8 +12,8 @@ public:
           material_("stitches.block_material", 3 * tables_.entries()),
           clock_(*stitches.clock) {
         tables_.fill(material_, [&](int stitch, const std::array<int, 4>&) {
-            return std::vector{stitches.start(stitch), stitches.stiffness(stitch),
-                               stitches.rate(stitch)};
+            return FewNumbers{stitches.start(stitch), stitches.stiffness(stitch),
+                              stitches.rate(stitch)};
         });
     }
 

@@ -14,8 +14,8 @@ public:
           material_("stitches.row_material", 3 * rows_.entries()),
           clock_(*stitches.clock) {
         rows_.fill(material_, [&](int stitch, int) {
-            return std::vector{stitches.start(stitch), stitches.stiffness(stitch),
-                               stitches.rate(stitch)};
+            return FewNumbers{stitches.start(stitch), stitches.stiffness(stitch),
+                              stitches.rate(stitch)};
         });
     }
 

@@ -140,9 +140,8 @@ void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pai
     const auto& of = aggregates_.of;
     const auto key = [](const Pair& p) { return std::pair(p.a, p.b); };
     BlockList list;
-    list.blocks.resize(pairs.size());
     list.segment_begin.assign(strip_pairs_.span().begin(), strip_pairs_.span().end());
-    for (int e = 0; e < family.count(); ++e) {
+    const auto put_element = [&](int e, const auto& put) {
         const auto corners = family.corners(e);
         for (std::size_t j = 0; j < corners.size(); ++j) {
             for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -152,11 +151,14 @@ void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pai
                 if (a == aggregates_.count() || (b >= a && !is_tied)) continue;
                 const std::pair wanted(a, is_tied ? a : b);
                 const auto pair = std::ranges::lower_bound(pairs, wanted, {}, key);
-                list.blocks[static_cast<std::size_t>(pair - pairs.begin())].push_back(
-                    {e, static_cast<int>(j), static_cast<int>(k)});
+                put(static_cast<int>(pair - pairs.begin()),
+                    BlockList::Contribution{e, static_cast<int>(j), static_cast<int>(k)});
             }
         }
-    }
+    };
+    list.blocks = {static_cast<int>(pairs.size()), [&](const auto& put) {
+                       for (int e = 0; e < family.count(); ++e) put_element(e, put);
+                   }};
     families_.push_back(family.make_block_rows(list));
 }
 

@@ -1,6 +1,7 @@
 #include "simulation/solver/newton/hessian.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/newton/blocks.h"
 #include "simulation/solver/newton/accesses.h"
@@ -9,10 +10,18 @@ namespace weft {
 
 namespace {
 
+/// How many others each row has.
 template <class Rows>
 std::vector<int> lengths_of(const Rows& rows) {
     std::vector<int> lengths;
-    for (const auto& row : rows) lengths.push_back(static_cast<int>(row.size()));
+    for (int v = 0; v < rows.count(); ++v) {
+        const auto row = rows[v];
+        int length = 0;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            if (c == 0 || row[c].other != row[c - 1].other) ++length;
+        }
+        lengths.push_back(length);
+    }
     return lengths;
 }
 
@@ -20,21 +29,20 @@ std::vector<int> lengths_of(const Rows& rows) {
 
 /// By ascending neighbour, and per neighbour by ascending element.
 FamilyHessian::Rows FamilyHessian::rows_of(const ElementFamily& family, int vertex_count) {
-    Rows rows(static_cast<std::size_t>(vertex_count));
-    for (int e = 0; e < family.count(); ++e) {
-        const auto corners = family.corners(e);
-        for (std::size_t j = 0; j < corners.size(); ++j) {
-            auto& row = rows[static_cast<std::size_t>(corners[j])];
-            for (std::size_t k = 0; k < corners.size(); ++k) {
-                if (k == j) continue;
-                auto at = std::ranges::lower_bound(row, corners[k], {}, &Neighbour::vertex);
-                if (at == row.end() || at->vertex != corners[k]) {
-                    at = row.insert(at, {corners[k], {}});
+    Rows rows(vertex_count, [&](const auto& put) {
+        for (int e = 0; e < family.count(); ++e) {
+            const auto corners = family.corners(e);
+            for (std::size_t j = 0; j < corners.size(); ++j) {
+                for (std::size_t k = 0; k < corners.size(); ++k) {
+                    if (k == j) continue;
+                    put(corners[j],
+                        Coupling{corners[k], {e, static_cast<int>(j), static_cast<int>(k)}});
                 }
-                at->contributions.push_back({e, static_cast<int>(j), static_cast<int>(k)});
             }
         }
-    }
+    });
+    const auto key = [](const Coupling& c) { return std::pair(c.other, c.from.element); };
+    for (int v = 0; v < vertex_count; ++v) std::ranges::sort(rows[v], {}, key);
     return rows;
 }
 
@@ -58,16 +66,19 @@ FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, co
 /// Fills the tables of rows, and lists what contributes to each entry.
 BlockList FamilyHessian::place(const Rows& rows, const Strips& strips) {
     BlockList list;
-    list.blocks.resize(others_.count());
-    for (int v = 0; v < vertex_count_; ++v) {
-        const auto& row = rows[static_cast<std::size_t>(v)];
-        for (int k = 0; k < rows_.length(v); ++k) {
-            const std::size_t entry = rows_.entry(v, k);
-            const auto place = static_cast<std::size_t>(k);
-            others_[entry] = place < row.size() ? row[place].vertex : v;
-            if (place < row.size()) list.blocks[entry] = row[place].contributions;
-        }
-    }
+    list.blocks = {
+        rows_.entry_count(), [&](const auto& put) {
+            for (int v = 0; v < vertex_count_; ++v) {
+                auto left = rows[v];
+                for (int k = 0; k < rows_.length(v); ++k) {
+                    const std::size_t entry = rows_.entry(v, k);
+                    const int other = others_[entry] = left.empty() ? v : left.front().other;
+                    for (; !left.empty() && left.front().other == other; left = left.subspan(1)) {
+                        put(static_cast<int>(entry), left.front().from);
+                    }
+                }
+            }
+        }};
     for (std::size_t s = 0; s < strips.begin.size(); ++s) {
         const int first = strips.begin[s];
         entry_begin_[s] =

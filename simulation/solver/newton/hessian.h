@@ -32,12 +32,12 @@ public:
     void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
 
 private:
-    /// A block of a row.
-    struct Neighbour {
-        int vertex = 0;
-        std::vector<BlockList::Contribution> contributions;
+    /// What contributes to a vertex' block with another one.
+    struct Coupling {
+        int other = 0;
+        BlockList::Contribution from;
     };
-    using Rows = std::vector<std::vector<Neighbour>>;  ///< [vertices]
+    using Rows = Grouped<Coupling>;  ///< [vertices] by ascending other vertex
     static Rows rows_of(const ElementFamily& family, int vertex_count);
     FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
                   const Rows& rows);
