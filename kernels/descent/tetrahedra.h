@@ -5,6 +5,7 @@
 #include "kernels/descent/energy_terms.h"
 #include "kernels/descent/rows.h"
 #include "kernels/energies/tetrahedron.h"
+#include "kernels/tetrahedra.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -77,14 +78,7 @@ WEFT_KERNEL(gather_tetrahedra_gradients, WEFT_GLOBAL const float4* positions,
 WEFT_KERNEL(tetrahedron_terms, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* corners,
             WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,
             WEFT_GLOBAL const int* slots, WEFT_GLOBAL float* terms, int count) {
-    const real3 x0 = xyz(gather4(positions, load_index(corners, i)));
-    const real3 x1 = xyz(gather4(positions, load_index(corners, column(i, count, 1))));
-    const real3 x2 = xyz(gather4(positions, load_index(corners, column(i, count, 2))));
-    const real3 x3 = xyz(gather4(positions, load_index(corners, column(i, count, 3))));
-    const mat3 map = tetrahedron_map(x0, x1, x2, x3, load3(shape, i, count, 0),
-                                     load3(shape, i, count, 3), load3(shape, i, count, 6));
-    const tetrahedron t =
-        make_tetrahedron(map, load(material, i), load(material, column(i, count, 1)));
+    const tetrahedron t = load_deformed(positions, corners, shape, material, i, count);
     store_term(terms, slots, i, tetrahedron_energy(t));
 }
 

@@ -70,6 +70,34 @@ WEFT_INLINE mat3 load_block(WEFT_GLOBAL const float* blocks, item i, int count) 
                     make3(xz, yz, load(blocks, column(i, count, 5))));
 }
 
+/// Blocks out of what elements have given, each once for all blocks that it is part of.
+/// slices          [2 * blocks] see rows.h
+/// element_blocks  three float4 each: d2E/dx_jdx_k [N/m], column by column
+/// places          [entries] in element_blocks; what fills a row up has a place of zeros
+/// turned          [entries] 1: the block is wanted the other way round, of x_k and x_j; or 0
+/// blocks          [columns * blocks] as above
+/// stride          between the entries of one row
+WEFT_KERNEL(sum_element_blocks, WEFT_GLOBAL const int* slices,
+            WEFT_GLOBAL const float4* element_blocks, WEFT_GLOBAL const int* places,
+            WEFT_GLOBAL const float* turned, WEFT_GLOBAL float* blocks, int block_count,
+            int columns, int stride, int fresh) {
+    mat3 sum = zero_mat();
+    const int length = row_length(slices, i);
+    for (int k = 0; k < length; ++k) {
+        const item entry = row_entry(slices, i, stride, k);
+        const integer place = load_index(places, entry);
+        const real3 x = xyz(gather4(element_blocks, place));
+        const real3 y = xyz(gather4(element_blocks + 1, place));
+        const real3 z = xyz(gather4(element_blocks + 2, place));
+        const real turn = load(turned, entry);
+        const real zero = splat(0.0f);
+        sum = add_mat(sum, make_mat(make3(x.x, turn > zero ? y.x : x.y, turn > zero ? z.x : x.z),
+                                    make3(turn > zero ? x.y : y.x, y.y, turn > zero ? z.y : y.z),
+                                    make3(turn > zero ? x.z : z.x, turn > zero ? y.z : z.y, z.z)));
+    }
+    put_block(blocks, i, block_count, columns, scale_mat(sum, splat(-1.0f)), fresh);
+}
+
 /// The blocks of the vertices themselves: each is the sum of its row.
 /// slices  [2 * vertices] see rows.h
 /// blocks  [columns * entries]

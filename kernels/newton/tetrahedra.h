@@ -1,9 +1,9 @@
 #ifndef WEFT_KERNELS_NEWTON_TETRAHEDRA_H
 #define WEFT_KERNELS_NEWTON_TETRAHEDRA_H
 
-#include "kernels/columns.h"
 #include "kernels/energies/tetrahedron.h"
 #include "kernels/newton/blocks.h"
+#include "kernels/tetrahedra.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -70,35 +70,35 @@ WEFT_INLINE mat3 tetrahedron_clamped(tetrahedron t, tetrahedron_resistance r, re
                             one_half * (r.shear + r.turn) * dot3(b_j, b_k));
 }
 
-/// The tetrahedra's blocks. Parameters as in couple_springs, and
-/// corners   [4 * entries] column-major: v, w and the tetrahedron's other vertices
-/// shape     [9 * entries] column-major: b of w and of the others [1/m]
-/// material  [2 * entries] column-major: mu, lambda, times the rest volume [J]
-WEFT_KERNEL(couple_tetrahedra, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* slices,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float* shape,
-            WEFT_GLOBAL const float* material, WEFT_GLOBAL float* blocks, int block_count,
-            int entry_count, int columns, int stride, int fresh) {
-    mat3 sum = zero_mat();
-    const int length = row_length(slices, i);
-    for (int k = 0; k < length; ++k) {
-        const item entry = row_entry(slices, i, stride, k);
-        const real3 x0 = xyz(gather4(positions, load_index(corners, entry)));
-        const real3 x1 =
-            xyz(gather4(positions, load_index(corners, column(entry, entry_count, 1))));
-        const real3 x2 =
-            xyz(gather4(positions, load_index(corners, column(entry, entry_count, 2))));
-        const real3 x3 =
-            xyz(gather4(positions, load_index(corners, column(entry, entry_count, 3))));
-        const real3 b1 = load3(shape, entry, entry_count, 0);
-        const real3 b2 = load3(shape, entry, entry_count, 3);
-        const real3 b3 = load3(shape, entry, entry_count, 6);
-        const tetrahedron t =
-            make_tetrahedron(tetrahedron_map(x0, x1, x2, x3, b1, b2, b3), load(material, entry),
-                             load(material, column(entry, entry_count, 1)));
-        const real3 b0 = scale(add(add(b1, b2), b3), splat(-1.0f));
-        sum = add_mat(sum, tetrahedron_clamped(t, resistance_of(t), b0, b1));
-    }
-    put_block(blocks, i, block_count, columns, scale_mat(sum, splat(-1.0f)), fresh);
+WEFT_INLINE void store_element_block(WEFT_GLOBAL float4* blocks, integer place, int pair, mat3 a) {
+    const real zero = splat(0.0f);
+    scatter4(blocks + 3 * pair, place, with_w(a.x, zero));
+    scatter4(blocks + 3 * pair + 1, place, with_w(a.y, zero));
+    scatter4(blocks + 3 * pair + 2, place, with_w(a.z, zero));
+}
+
+/// What each tetrahedron gives to the blocks, for sum_element_blocks: of corners 0 and 1, 0 and 2,
+/// 0 and 3, 1 and 2, 1 and 3, 2 and 3. To find the rotation takes most of it, and it is the same
+/// for all six.
+/// corners, shape, material  as in load_deformed
+/// places          [count] of its blocks
+/// element_blocks  [18 per element]
+WEFT_KERNEL(block_tetrahedra, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* corners,
+            WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,
+            WEFT_GLOBAL const int* places, WEFT_GLOBAL float4* element_blocks, int count) {
+    const real3 b1 = load3(shape, i, count, 0);
+    const real3 b2 = load3(shape, i, count, 3);
+    const real3 b3 = load3(shape, i, count, 6);
+    const real3 b0 = scale(add(add(b1, b2), b3), splat(-1.0f));
+    const tetrahedron t = load_deformed(positions, corners, shape, material, i, count);
+    const tetrahedron_resistance r = resistance_of(t);
+    const integer place = load_index(places, i);
+    store_element_block(element_blocks, place, 0, tetrahedron_clamped(t, r, b0, b1));
+    store_element_block(element_blocks, place, 1, tetrahedron_clamped(t, r, b0, b2));
+    store_element_block(element_blocks, place, 2, tetrahedron_clamped(t, r, b0, b3));
+    store_element_block(element_blocks, place, 3, tetrahedron_clamped(t, r, b1, b2));
+    store_element_block(element_blocks, place, 4, tetrahedron_clamped(t, r, b1, b3));
+    store_element_block(element_blocks, place, 5, tetrahedron_clamped(t, r, b2, b3));
 }
 
 WEFT_KERNELS_END

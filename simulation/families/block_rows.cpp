@@ -6,14 +6,6 @@ namespace weft {
 
 namespace {
 
-std::vector<int> lengths_of(const BlockList& list) {
-    std::vector<int> lengths;
-    for (int block = 0; block < list.count(); ++block) {
-        lengths.push_back(static_cast<int>(list.blocks[block].size()));
-    }
-    return lengths;
-}
-
 std::array<int, 4> from(const BlockList::Contribution& c, int arity) {
     std::array<int, 4> corners{c.j, c.k};
     std::size_t next = 2;
@@ -25,9 +17,17 @@ std::array<int, 4> from(const BlockList::Contribution& c, int arity) {
 
 }  // namespace
 
+std::vector<int> BlockList::lengths() const {
+    std::vector<int> lengths;
+    for (int block = 0; block < count(); ++block) {
+        lengths.push_back(static_cast<int>(blocks[block].size()));
+    }
+    return lengths;
+}
+
 BlockRowTables::BlockRowTables(const std::string& name, const Elements& elements,
                                const BlockList& list)
-    : rows_(name + ".block_rows", list.segment_begin, lengths_of(list)),
+    : rows_(name + ".block_rows", list.segment_begin, list.lengths()),
       corners_(name + ".block_corners", entries() * static_cast<std::size_t>(elements.arity())),
       entries_(entries()) {
     const auto arity = static_cast<std::size_t>(elements.arity());

@@ -24,6 +24,8 @@ struct BlockList {
     std::vector<int> segment_begin;  ///< of the blocks, strip by strip
 
     int count() const { return blocks.count(); }
+    /// Of the rows.
+    std::vector<int> lengths() const;
 };
 
 /// Per block a row of its contributions. Entries that only fill a row up name one vertex for all

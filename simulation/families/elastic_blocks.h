@@ -36,10 +36,10 @@ public:
         });
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(Kernel{}, t.segments, t.positions, tables_.slices(), tables_.corners(),
-                      shape_, material_, t.blocks, t.block_count, tables_.entry_count(), t.columns,
-                      SlicedRows::kStride, t.fresh);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(Kernel{}, t.segments, t.positions, tables_.slices(), tables_.corners(),
+                       shape_, material_, t.blocks, t.block_count, tables_.entry_count(), t.columns,
+                       SlicedRows::kStride, t.fresh)};
     }
 
 private:

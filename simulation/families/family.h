@@ -103,7 +103,8 @@ struct BlockTarget {
 class BlockRows {
 public:
     virtual ~BlockRows() = default;
-    virtual Launch couple(const BlockTarget& target) = 0;
+    /// Launches that follow each other.
+    virtual std::vector<Launch> couple(const BlockTarget& target) = 0;
 };
 
 /// Elements whose vertices are computed together, in one sweep.

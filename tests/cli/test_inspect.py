@@ -77,7 +77,7 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
         "couple_curved_hinges", "couple_hinges", "gather_bending", "gather_bending_gradients",
         "hinge_terms", "project_hinges"]
     assert left_out["solids"]["kernels"] == [
-        "couple_tetrahedra", "gather_tetrahedra", "gather_tetrahedra_gradients", "project_tetrahedra",
+        "block_tetrahedra", "gather_tetrahedra", "gather_tetrahedra_gradients", "project_tetrahedra",
         "solve_tetrahedron_stencils", "tetrahedron_terms"]
     assert left_out["membranes"]["kernels"] == [
         "gather_membrane_gradients", "gather_membranes", "membrane_terms", "project_membranes",

@@ -69,7 +69,34 @@ void elastic_case(KernelCase& c, Kernel kernel, int corner_count, int shape_colu
 
 void membranes_case(KernelCase& c) { elastic_case(c, kernels::couple_membranes, 3, 4, 2); }
 void woven_case(KernelCase& c) { elastic_case(c, kernels::couple_woven, 3, 4, 3); }
-void tetrahedra_case(KernelCase& c) { elastic_case(c, kernels::couple_tetrahedra, 4, 9, 2); }
+
+void tetrahedra_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", 20);
+    auto& corners = add_indices(c, "corners", 4 * c.items, 20);
+    auto& shape = add_reals(c, "shape", 9 * c.items, -2.0f, 2.0f);
+    auto& material = add_reals(c, "material", 2 * c.items, 0.0f, 2.0f);
+    auto& places = c.add<int>("places", c.items);
+    for (int i = 0; i < c.items; ++i) places[at(i)] = 18 * i;
+    auto& blocks = c.add<float4>("element_blocks", 18 * c.items);
+    if (c.flavour == Flavour::kDegenerate) {
+        for (std::size_t e = 0; e < material.count(); e += 3) material[e] = 0.0f;
+    }
+    c.launch = launch(kernels::block_tetrahedra, c.segments, positions, corners, shape, material,
+                      places, blocks, c.items);
+}
+
+void element_blocks_case(KernelCase& c) {
+    const int entries = kRow * c.items;
+    auto& slices = add_slices(c);
+    auto& element_blocks = add_points(c, "element_blocks", 3 * 20);
+    auto& places = add_indices(c, "places", entries, 20);
+    for (int& place : places.span()) place *= 3;
+    auto& turned = c.add<float>("turned", entries);
+    for (float& turn : turned.span()) turn = static_cast<float>(c.random.integer(0, 1));
+    auto& blocks = add_reals(c, "blocks", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::sum_element_blocks, c.segments, slices, element_blocks, places,
+                      turned, blocks, c.items, columns_of(c), c.items, c.items % 3 == 0 ? 1 : 0);
+}
 
 void springs_case(KernelCase& c) {
     const int entries = kRow * c.items;
@@ -334,8 +361,10 @@ void decide_case(KernelCase& c) {
 
 const bool added =
     add_case("couple_membranes", membranes_case) && add_case("couple_woven", woven_case) &&
-    add_case("couple_tetrahedra", tetrahedra_case) && add_case("couple_springs", springs_case) &&
-    add_case("couple_stitches", stitches_case) && add_case("couple_hinges", hinges_case) &&
+    add_case("block_tetrahedra", tetrahedra_case) &&
+    add_case("sum_element_blocks", element_blocks_case) &&
+    add_case("couple_springs", springs_case) && add_case("couple_stitches", stitches_case) &&
+    add_case("couple_hinges", hinges_case) &&
     add_case("couple_curved_hinges", curved_hinges_case) &&
     add_case("multiply_blocks", multiply_any_case) &&
     add_case("multiply_symmetric_blocks", multiply_symmetric_case) &&

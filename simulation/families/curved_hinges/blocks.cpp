@@ -19,9 +19,9 @@ public:
         }
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(kernels::couple_hinges, t.segments, weights_, t.blocks, t.block_count,
-                      t.columns, t.fresh);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(kernels::couple_hinges, t.segments, weights_, t.blocks, t.block_count,
+                       t.columns, t.fresh)};
     }
 
 private:
@@ -44,10 +44,10 @@ public:
         });
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(kernels::couple_curved_hinges, t.segments, t.positions, tables_.slices(),
-                      tables_.corners(), weights_, t.blocks, t.block_count, tables_.entry_count(),
-                      t.columns, SlicedRows::kStride, t.fresh);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(kernels::couple_curved_hinges, t.segments, t.positions, tables_.slices(),
+                       tables_.corners(), weights_, t.blocks, t.block_count, tables_.entry_count(),
+                       t.columns, SlicedRows::kStride, t.fresh)};
     }
 
 private:

@@ -19,9 +19,9 @@ public:
         }
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(kernels::couple_hinges, t.segments, weights_, t.blocks, t.block_count,
-                      t.columns, t.fresh);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(kernels::couple_hinges, t.segments, weights_, t.blocks, t.block_count,
+                       t.columns, t.fresh)};
     }
 
 private:

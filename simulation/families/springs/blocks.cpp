@@ -15,10 +15,10 @@ public:
         });
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(kernels::couple_springs, t.segments, t.positions, t.before, t.after,
-                      tables_.slices(), tables_.corners(), material_, t.blocks, t.block_count,
-                      tables_.entry_count(), t.columns, SlicedRows::kStride, t.fresh);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(kernels::couple_springs, t.segments, t.positions, t.before, t.after,
+                       tables_.slices(), tables_.corners(), material_, t.blocks, t.block_count,
+                       tables_.entry_count(), t.columns, SlicedRows::kStride, t.fresh)};
     }
 
 private:

@@ -17,10 +17,10 @@ public:
         });
     }
 
-    Launch couple(const BlockTarget& t) override {
-        return launch(kernels::couple_stitches, t.segments, t.positions, tables_.slices(),
-                      tables_.corners(), material_, clock_, t.blocks, t.block_count,
-                      tables_.entry_count(), t.columns, SlicedRows::kStride, t.fresh, kInstance);
+    std::vector<Launch> couple(const BlockTarget& t) override {
+        return {launch(kernels::couple_stitches, t.segments, t.positions, tables_.slices(),
+                       tables_.corners(), material_, clock_, t.blocks, t.block_count,
+                       tables_.entry_count(), t.columns, SlicedRows::kStride, t.fresh, kInstance)};
     }
 
 private:

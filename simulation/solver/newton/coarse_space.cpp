@@ -165,9 +165,15 @@ void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pai
 std::vector<Launch> CoarseSpace::couple(const LinearisedAt& where) {
     std::vector<Launch> launches;
     for (const auto& family : families_) {
-        launches.push_back(
-            family->couple({pairs_by_strip_, where.positions, where.before, where.after, blocks_,
-                            pair_count_, 9, launches.empty() ? 1 : 0}));
+        const BlockTarget target{pairs_by_strip_,
+                                 where.positions,
+                                 where.before,
+                                 where.after,
+                                 blocks_,
+                                 pair_count_,
+                                 9,
+                                 launches.empty() ? 1 : 0};
+        std::ranges::move(family->couple(target), std::back_inserter(launches));
     }
     return launches;
 }

@@ -89,7 +89,7 @@ BlockList FamilyHessian::place(const Rows& rows, const Strips& strips) {
     return list;
 }
 
-Launch FamilyHessian::couple(const LinearisedAt& where) {
+std::vector<Launch> FamilyHessian::couple(const LinearisedAt& where) {
     return contributions_->couple({entries_, where.positions, where.before, where.after, blocks_,
                                    rows_.entry_count(), columns_, 1});
 }
@@ -125,7 +125,8 @@ Hessian::Hessian(Model& model, const VertexItems& items) {
 
 std::vector<Launch> Hessian::couple(const LinearisedAt& where) {
     std::vector<Launch> launches;
-    for (const auto& family : families_) launches.push_back(family->couple(where));
+    for (const auto& family : families_)
+        std::ranges::move(family->couple(where), std::back_inserter(launches));
     return launches;
 }
 

@@ -22,7 +22,7 @@ public:
     FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model);
 
     /// Makes the blocks anew.
-    Launch couple(const LinearisedAt& where);
+    std::vector<Launch> couple(const LinearisedAt& where);
     /// Adds the vertices' own blocks to the Hessian's columns of `sums` (kernels/descent/rows.h),
     /// or puts them there where fresh is 1.
     Launch sum_rows(Buffer<float>& sums, int fresh);
