@@ -1,5 +1,7 @@
 #include "simulation/error_samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -53,6 +55,21 @@ std::vector<char> held_by_obstacles(const Model& model, double time) {
     return held;
 }
 
+ErrorSamples::ErrorSamples(const Model& model, int threads) : threads_(threads), motion_(model) {
+    restart(model, 0.0);
+}
+
+void ErrorSamples::restart(const Model& model, double time) {
+    start_ = time;
+    motion_ = UnsolvedMotion(model);
+    first_strain_ = last_strain_ = most_strain_ = model.edges->strain(model.positions->span()).rms;
+}
+
+void ErrorSamples::note(const Model& model, double strain) {
+    last_strain_ = strain;
+    motion_.note(model);
+}
+
 int frames_per_estimate(const Model& model) {
     constexpr double kShare = 0.015;  ///< of a run's time
     const SolverSettings& solver = model.scene.solver;
@@ -82,12 +99,57 @@ void ErrorSamples::begin(const Model& model, double time) {
                         {}};
 }
 
-bool ErrorSamples::doubts(double strain, double energy, const StepEstimate& estimate) const {
+std::optional<Alarm> ErrorSamples::doubt(const Model& model, const Watch::Look& look,
+                                         const StepEstimate& estimate) const {
+    auto alarm = doubt_of_strain(look, estimate);
+    return alarm ? alarm : doubt_of_motion(model, look.strain.rms);
+}
+
+std::optional<Alarm> ErrorSamples::doubt_of_strain(const Watch::Look& look,
+                                                   const StepEstimate& estimate) const {
     constexpr double kPart = 0.05;
+    const double strain = look.strain.rms;
+    const double energy = look.entry.energies.strain();
     // As energies go with the square of strain.
     const double part = std::min(estimate.left / energy, 1.0);
-    return is_stretched(strain, first_strain_) && part > kPart &&
-           strain * std::sqrt(part) > kVisible;
+    const bool is_doubted =
+        is_stretched(strain, first_strain_) && part > kPart && strain * std::sqrt(part) > kVisible;
+    if (!is_doubted) return std::nullopt;
+    return Alarm{
+        Alarm::Kind::kDoubt,
+        fmt::format("edges are strained by {:.3g} % RMS in steps that are hardly solved ({:.2g} "
+                    "J of strain, of which a single step leaves {:.2g} J too much)",
+                    100.0 * strain, energy, estimate.left),
+        {}};
+}
+
+std::optional<Alarm> ErrorSamples::doubt_of_motion(const Model& model, double strain) const {
+    // What begins taut gives way first, and moves then; few steps are all the way that there is.
+    constexpr double kFewSteps = 10.0;
+    constexpr double kFallen = 0.25;  // of the size of everything
+    const double end = ends_->time + model.h;
+    const double time = end - start_;
+    const double fallen = 0.5 * length(model.scene.gravity_at(end)) * time * time;
+    if (is_told_ || time < kFewSteps * model.h || fallen < kFallen * motion_.size()) return {};
+    if (const auto found = motion_.find(model, error_->solved())) {
+        const BodyRange& body = model.bodies[found->body];
+        return Alarm{Alarm::Kind::kDoubt,
+                     fmt::format("{} '{}' has moved by {:.2g} m since the start (RMS), of which a "
+                                 "single step would take back {:.2g} m if it were solved",
+                                 body.kind, body.name, found->moved, found->undone),
+                     {}};
+    }
+    if (!is_stretched(strain, first_strain_)) return std::nullopt;
+    const double solved_strain = error_->solved_strain();
+    const auto moved = motion_.find(model, strain, solved_strain);
+    if (!moved) return std::nullopt;
+    return Alarm{
+        Alarm::Kind::kDoubt,
+        fmt::format("everything has moved by {:.2g} m since the start (RMS), and edges are "
+                    "strained by {:.2g} % RMS, where a single step would leave {:.2g} % if "
+                    "it were solved: that can be all of the motion",
+                    *moved, 100.0 * strain, 100.0 * solved_strain),
+        {}};
 }
 
 std::optional<StepEstimate> ErrorSamples::end(const Model& model,

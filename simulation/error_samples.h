@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "simulation/step_error.h"
+#include "simulation/unsolved_motion.h"
+#include "simulation/watch.h"
 
 namespace weft {
 
@@ -13,7 +15,11 @@ namespace weft {
 /// per cent of a per cent less than two of a run's time.
 class ErrorSamples {
 public:
-    explicit ErrorSamples(int threads) : threads_(threads) {}
+    /// A run begins where the model is.
+    ErrorSamples(const Model& model, int threads);
+
+    /// It goes on from another state, where the model is, at a time [s].
+    void restart(const Model& model, double time);
 
     /// Whether the frame's last substep is to be kept; frames of the scene that the model is of.
     bool wants(const Model& model, int frame) const;
@@ -25,14 +31,16 @@ public:
     /// The model is at its end; it was begun. contacts: as SubstepEnds has them. None: see
     /// StepError
     std::optional<StepEstimate> end(const Model& model, std::vector<FrozenContact> contacts);
-    // Of edges, RMS. Where they become plainly longer, frames are chosen for that, too.
-    /// Before anything has happened: nobody has to answer for that.
-    void expect_strain(double strain) { first_strain_ = last_strain_ = most_strain_ = strain; }
-    /// At a frame's end.
-    void note_strain(double strain) { last_strain_ = strain; }
-    /// Whether strain is plain to see that a solved step would not have left: then it is not the
-    /// material that gives way. energy: of all strain [J]
-    bool doubts(double strain, double energy, const StepEstimate& estimate) const;
+    /// At a frame's end, where the model is. strain: of edges, RMS. Where they become plainly
+    /// longer, frames are chosen for that, too
+    void note(const Model& model, double strain);
+    /// What the last estimate says against the state, where the model is: strain that is plain to
+    /// see and that a solved step would not have left, as it is not the material that gives way
+    /// then; or motion that is of this kind.
+    std::optional<Alarm> doubt(const Model& model, const Watch::Look& look,
+                               const StepEstimate& estimate) const;
+    /// A doubt was told, and the run goes on: what has sagged stays there, and is told once.
+    void told() { is_told_ = true; }
 
     /// What the last estimate was made of.
     const SubstepEnds& last() const { return *ends_; }
@@ -40,11 +48,18 @@ public:
     void reset() { error_.reset(); }
 
 private:
+    std::optional<Alarm> doubt_of_strain(const Watch::Look& look,
+                                         const StepEstimate& estimate) const;
+    std::optional<Alarm> doubt_of_motion(const Model& model, double strain) const;
+
     int threads_;
+    double start_ = 0.0;  ///< [s]
+    UnsolvedMotion motion_;
+    bool is_told_ = false;
     std::unique_ptr<StepError> error_;  ///< null: not needed yet
     bool is_begun_ = false;
-    double first_strain_ = 0.0, last_strain_ = 0.0;
-    double most_strain_ = 0.0;  ///< that an estimate was made at
+    double first_strain_ = 0.0, last_strain_ = 0.0;  ///< of edges, RMS
+    double most_strain_ = 0.0;                       ///< that an estimate was made at
     std::optional<SubstepEnds> ends_;
 };
 

@@ -55,17 +55,6 @@ int host_threads(const std::vector<std::unique_ptr<Device>>& devices) {
     return std::clamp(units, 1, static_cast<int>(std::max<std::size_t>(usable_cores().size(), 1)));
 }
 
-double strain_of(const Model& model) { return model.edges->strain(model.positions->span()).rms; }
-
-Alarm doubt_of(const Watch::Look& look, const StepEstimate& estimate) {
-    return {
-        Alarm::Kind::kDoubt,
-        fmt::format("edges are strained by {:.3g} % RMS in steps that are hardly solved ({:.2g} "
-                    "J of strain, of which a single step leaves {:.2g} J too much)",
-                    100.0 * look.strain.rms, look.entry.energies.strain(), estimate.left),
-        {}};
-}
-
 void record(const Watch::Look& look, FrameRecord& frame) {
     const EnergyAccount::Entry& entry = look.entry;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -93,9 +82,8 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
       first_substeps_(model_->scene.substeps),
       most_iterations_(model_->scene.solver.iterations) {
     if (options.on_trouble != OnTrouble::kIgnore) {
-        samples_ = std::make_unique<ErrorSamples>(host_threads(devices));
+        samples_ = std::make_unique<ErrorSamples>(*model_, host_threads(devices));
     }
-    if (samples_) samples_->expect_strain(strain_of(*model_));
     warn_of_start(*model_, warnings);
     if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
@@ -145,7 +133,7 @@ void Simulation::resume(const Checkpoint& checkpoint) {
     place();
     restore(state);
     watch_->restart(*model_, time(), checkpoint.account);
-    if (samples_) samples_->expect_strain(strain_of(*model_));
+    if (samples_) samples_->restart(*model_, time());
 }
 
 /// Everything that knows the length of a step is made anew; devices and costs stay.
@@ -183,7 +171,7 @@ void Simulation::start_from(int frame, std::span<const float> positions,
     restore(state);
     frame_ = frame;
     watch_->restart(*model_, time());
-    if (samples_) samples_->expect_strain(strain_of(*model_));
+    if (samples_) samples_->restart(*model_, time());
 }
 
 void Simulation::place() {
@@ -371,12 +359,12 @@ bool Simulation::accepts(const Step& step, bool may_repeat, FrameRecord& frame) 
     if (look.alarm && !goes_on_with(*look.alarm, step)) return false;
     const auto estimated = may_repeat ? estimate() : std::nullopt;
     if (estimated && iterates_more(estimated->relative_error)) return false;
-    if (estimated && !look.alarm &&
-        samples_->doubts(look.strain.rms, look.entry.energies.strain(), *estimated) &&
-        !goes_on_with(doubt_of(look, *estimated), step)) {
-        return false;
+    if (estimated && !look.alarm) {
+        const auto doubt = samples_->doubt(*model_, look, *estimated);
+        if (doubt && !goes_on_with(*doubt, step)) return false;
+        if (doubt) samples_->told();
     }
-    if (samples_) samples_->note_strain(look.strain.rms);
+    if (samples_) samples_->note(*model_, look.strain.rms);
     watch_->accept(look, look.alarm.has_value());
     look_at_contact(frame);
     record(look, frame);

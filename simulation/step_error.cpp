@@ -71,6 +71,12 @@ std::optional<double> StepError::of(const SubstepEnds& ends) {
     return estimated ? std::optional(estimated->relative_error) : std::nullopt;
 }
 
+std::vector<float> StepError::solved() const {
+    return model_->in_scene_order(newton_->positions());
+}
+
+double StepError::solved_strain() const { return model_->edges->strain(newton_->positions()).rms; }
+
 std::optional<StepEstimate> StepError::estimate(const SubstepEnds& ends) {
     constexpr double kLostInRounding = 10.0;
     start_at(ends);

@@ -50,6 +50,10 @@ public:
     /// Nothing where both x~ and x are as near to the minimum as single precision can tell. None
     /// where the numbers have no meaning.
     std::optional<StepEstimate> estimate(const SubstepEnds& ends);
+    /// Where the last estimate's substep would have led to, xyz in scene order [m].
+    std::vector<float> solved() const;
+    /// Of edges there, RMS.
+    double solved_strain() const;
     /// Its relative error alone.
     std::optional<double> of(const SubstepEnds& ends);
 

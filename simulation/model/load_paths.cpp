@@ -61,6 +61,7 @@ public:
 private:
     LoadPath path_of(const std::vector<int>& part) {
         LoadPath path;
+        path.is_held = std::ranges::any_of(part, [&](int v) { return all_.held[at(v)] != 0; });
         path.levels = levels_of(part);
         path.edge = mean_edge(part);
         const std::map<std::size_t, double> masses = masses_of(part);

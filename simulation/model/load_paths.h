@@ -18,6 +18,7 @@ struct LoadPath {
     double edge = 0.0;    ///< mean length [m]
     double burden = 1.0;  ///< the mass of all bodies that are tied together, over the lightest's
     bool is_solid = false;
+    bool is_held = false;  ///< by pins
 };
 
 /// One per connected part with an edge.

@@ -67,6 +67,21 @@ int carrying_iterations(const SolverSettings& solver) {
     return solver.iterations * (solver.cg_steps + solver.sweeps);
 }
 
+/// What the scene's solver has to carry. Only xpbd feels what else hangs on a body: its constraints
+/// share by masses. Descent moves the heavy ones by their own equations, and light ones follow:
+/// seams of 1e4 times the mass left as little strain as those of equal ones (docs/stability.md).
+std::vector<LoadPath> paths_of(const Scene& scene, const Gathered& all) {
+    std::vector<LoadPath> paths = load_paths(all);
+    if (scene.solver.method == Method::kXpbd) return paths;
+    for (LoadPath& path : paths) path.burden = 1.0;
+    return paths;
+}
+
+/// Whether its weight is ever carried: what falls for ever is not stretched by it.
+bool bears(const LoadPath& path, const Scene& scene) {
+    return path.is_held || !scene.obstacles.empty() || scene.contact;
+}
+
 Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
     if (scene.substeps > 0) return scene;
     scene.substeps = believable_substeps(paths, scene.dt, carrying_iterations(scene.solver),
@@ -78,14 +93,14 @@ Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
 /// warning.
 Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings) {
     constexpr double kUnbelievable = 0.1;
-    const std::vector<LoadPath> paths = load_paths(all);
+    const std::vector<LoadPath> paths = paths_of(given, all);
     Scene scene = with_substeps(given, paths);
     const double gravity = strongest_gravity(scene);
     const int iterations = carrying_iterations(scene.solver);
     for (const LoadPath& path : paths) {
         const double strain =
             unfinished_strain(path, scene.dt / scene.substeps, iterations, gravity);
-        if (strain < kUnbelievable) continue;
+        if (strain < kUnbelievable || !bears(path, scene)) continue;
         warnings.push_back(fmt::format(
             "'{}' is too fine for scene.substeps = {} of {} iterations: they will leave it "
             "stretched "
@@ -219,7 +234,7 @@ std::vector<BufferStorage*> Model::placed_buffers() {
 Scene with_substeps(const Scene& scene) {
     if (scene.substeps > 0) return scene;
     Warnings warnings;
-    return with_substeps(scene, load_paths(gather(scene, warnings)));
+    return with_substeps(scene, paths_of(scene, gather(scene, warnings)));
 }
 
 }  // namespace weft

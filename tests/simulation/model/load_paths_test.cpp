@@ -77,7 +77,7 @@ TEST(LoadPaths, TiedBodiesBurdenTheLightest) {
 }
 
 TEST(LoadPaths, StrainGrowsWithTheSquareOfTheStepAndFallsWithIterations) {
-    const LoadPath path{"sheet", 20.0, 0.1, 1.0, false};
+    const LoadPath path{"sheet", 20.0, 0.1, 1.0, false, true};
     const double strain = unfinished_strain(path, 0.01, 4, 10.0);
     EXPECT_NEAR(strain, 0.1, 1e-12);
     EXPECT_NEAR(unfinished_strain(path, 0.005, 4, 10.0), strain / 4.0, 1e-12);
@@ -119,6 +119,32 @@ TEST(Substeps, ThatAreTooFewAreWarnedOf) {
     scene.substeps = 2;
     const Model enough(scene, warnings);
     EXPECT_TRUE(warnings.empty());
+}
+
+/// By their masses, xpbd's constraints move the light body; descent moves the heavy one by its own
+/// equations.
+TEST(Substeps, AreWarnedOfForBurdensOnlyByXpbd) {
+    Scene scene = parse_scene(kSheet + kPins + kBlock + kTies, "test.toml");
+    scene.substeps = 4;
+    for (const Method method : {Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd}) {
+        scene.solver.method = method;
+        Warnings warnings;
+        const Model model(scene, warnings);
+        EXPECT_EQ(warnings.size(), method == Method::kXpbd ? 1U : 0U) << name_of(method);
+    }
+}
+
+/// Nothing is stretched by its weight that only falls.
+TEST(Substeps, AreNotWarnedOfInFreeFall) {
+    Scene scene = parse_scene(kSheet, "test.toml");
+    scene.substeps = 1;
+    scene.solver.iterations = 1;
+    Warnings warnings;
+    const Model falls(scene, warnings);
+    EXPECT_TRUE(warnings.empty());
+    scene.contact = Contact{};
+    const Model may_land(scene, warnings);
+    EXPECT_EQ(warnings.size(), 1U);
 }
 
 }  // namespace
