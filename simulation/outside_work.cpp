@@ -10,6 +10,7 @@
 #include "runtime/tbb/parallel.h"
 #include "simulation/diagnostics.h"
 #include "simulation/families/convert.h"
+#include "simulation/pin_work.h"
 
 namespace weft {
 
@@ -169,37 +170,6 @@ double doubt_of_blows(const Model& model, const SimulationState& before, double 
     return speed * length(gained - fallen);
 }
 
-/// Whether nothing is held but by pins that move.
-bool all_held_move(const Model& model) {
-    std::size_t held = 0;
-    for (const float4& x : model.positions->span()) held += x.w <= 0.0f ? 1 : 0;
-    return held == model.moving_pins->count();
-}
-
-/// By pins that all have one velocity: that times their push, which is what the momentum of
-/// everything else has more of than gravity and damping account for. Nothing else may push.
-std::optional<OutsideWork> work_of_common_pins(const Model& model, const SimulationState& before,
-                                               double start, double end) {
-    if (!model.moving_pins || model.obstacles || !all_held_move(model)) return std::nullopt;
-    const int substeps = static_cast<int>(std::lround((end - start) / model.h));
-    const auto velocity = model.moving_pins->common_velocity(start, model.h, substeps);
-    if (!velocity) return std::nullopt;
-    Vec3 fall;  // [m/s]
-    for (int s = 0; s < substeps; ++s) fall = fall + model.h * to_vec3((*model.gravity)[at(s)]);
-    Vec3 push, unknown;
-    for (std::size_t v = 0; v < model.masses.size(); ++v) {
-        if ((*model.positions)[v].w <= 0.0f) continue;
-        const Vec3 first = to_vec3(before.velocities[v]);
-        const float4& last = (*model.velocities)[v];
-        const Vec3 gained = to_vec3(last) - first;
-        // What damping leaves of a velocity per substep, and what velocities it had between.
-        const double damped = substeps * (1.0 / static_cast<double>(last.w) - 1.0);
-        push = push + model.masses[v] * (gained - fall + 0.5 * damped * (first + to_vec3(last)));
-        unknown = unknown + (model.masses[v] * damped) * gained;
-    }
-    return OutsideWork{dot(*velocity, push), length(*velocity) * length(unknown)};
-}
-
 }  // namespace
 
 OutsideWork outside_work(const Model& model, const SimulationState& before, double start,
@@ -208,7 +178,7 @@ OutsideWork outside_work(const Model& model, const SimulationState& before, doub
     const Vec3 gravity = model.scene.gravity_at(end);
     OutsideWork sum =
         work_of_gravity(model, before.positions, now, gravity - model.scene.gravity_at(start));
-    const auto exact = work_of_common_pins(model, before, start, end);
+    const auto exact = work_of_pins(model, before, start, end);
     if (exact) {
         sum.work += exact->work;
         sum.doubt += exact->doubt;
