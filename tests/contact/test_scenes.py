@@ -23,6 +23,7 @@ WEFT = os.environ["WEFT"]
 CASES = [(name, text) for name, text in scenes.SHORT.items()]
 CASES += [(f"{solver}_{name}", scenes.SHORT[name].replace('"vbd"', f'"{solver}"'))
           for solver, names in scenes.OTHER_SOLVERS.items() for name in names]
+SCENES = pathlib.Path(__file__).parents[2] / "scenes"
 IS_LONG = bool(os.environ.get("WEFT_LONG"))
 if IS_LONG:
     CASES += [(f"long_{name}", text) for name, text in scenes.LONG.items()]
@@ -84,6 +85,31 @@ def test_what_is_sewn_holds_what_falls_into_it(tmp_path, solver):
     blocks = last[numpy.unique(run.triangles[run.bodies > 1])]
     assert blocks[:, 1].min() > last[:, 1].min() and blocks[:, 1].max() < 0.16
     assert summary["contact"]["lost"] == 0
+
+
+def sewn_in_jersey(positions):
+    """Pairs of vertices, as the scene stands at its start: the panels are mirror images."""
+    half = len(positions) // 2
+    x, y = numpy.abs(positions[:half, 0]), positions[:half, 1]
+    sides = (x > 0.24) & (y < 1.2)
+    shoulders = (y > 1.459) & (x >= 0.1)
+    return [(int(v), int(v) + half) for v in numpy.flatnonzero(sides | shoulders)], shoulders
+
+
+def test_a_jersey_stays_on_a_body_that_leaps(tmp_path):
+    """Frame 24: the seams are closed; 42: the body has crouched; 57: it is in the air."""
+    text = (SCENES / "jersey.toml").read_text()
+    frames = [] if IS_LONG else ["--frames", "60"]
+    run, summary = simulate(tmp_path, text, *frames)
+    sewn, shoulders = sewn_in_jersey(run.positions[0])
+    for positions in run.positions:
+        assert oracle.crossings_but_of_sewn(run, positions, sewn) == []
+    hung, highest = run.positions[35], run.positions[57]
+    assert max(numpy.linalg.norm(hung[a] - hung[b]) for a, b in sewn) < 0.005
+    arms = 1.34  # the height of their middle while the body stands
+    assert hung[numpy.flatnonzero(shoulders), 1].min() > arms
+    assert highest[:, 1].max() > hung[:, 1].max() + 0.3
+    assert summary["contact"]["lost"] == 0 and summary["warnings"] == []
 
 
 ASYNC = {
