@@ -28,6 +28,8 @@ public:
     RowTable(std::string name, const Segments& items, int room);
 
     int item_count() const { return item_count_; }
+    /// Whose rows they are, by strips.
+    const Segments& items() const { return items_; }
     /// [2 * items] column-major: where an item's entries start, how many there is room for.
     Buffer<int>& rows() { return rows_; }
     /// [items] for the kernel that fills the rows: the entries that each has now.

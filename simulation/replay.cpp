@@ -41,8 +41,10 @@ SimulationOptions without_planning(const SimulationOptions& options, const RunDe
 Replay::Replay(const Scene& scene, const SimulationOptions& options, const RunDescription& recorded,
                Warnings& warnings)
     : simulation_(scene, without_planning(options, recorded), warnings),
-      plans_(recorded, simulation_.model().strips.count(),
-             [this](const Division& division) { return simulation_.make_step(division); }) {}
+      plans_(
+          recorded, simulation_.model().strips.count(),
+          [this](const Division& division) { return simulation_.make_step(division); },
+          [this](const Task& task) { return simulation_.planner().timing().items_vary(task); }) {}
 
 void Replay::advance(const FrameRecord& recorded) {
     if (static_cast<int>(recorded.frame) != simulation_.frame()) {

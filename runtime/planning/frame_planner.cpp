@@ -48,6 +48,7 @@ FramePlanner::FramePlanner(StepMaker& maker, int strip_count, const std::vector<
       feedback_(maker.kinds().size(), devices.size(), Candidates::most(devices.size())),
       candidates_(maker, strip_count, devices, feedback_.timing()),
       trials_(candidates_.count(), kProbes) {
+    feedback_.timing().count_rows_of(maker);
     if (kind_ == PlanKind::kPlaced && !candidates_.can_place()) kind_ = PlanKind::kAuto;
     if (kind_ == PlanKind::kExact && !candidates_.can_divide()) kind_ = PlanKind::kAuto;
     if (!fixed_) return;

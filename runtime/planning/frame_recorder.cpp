@@ -26,15 +26,14 @@ void FrameRecorder::sum_up(const FramePlan& plan, const RunTimes& times, int sub
     for (const CopyRecord& copy : times.copies) frame.transferred_bytes += copy.bytes;
 }
 
-void FrameRecorder::list(const FramePlan& plan, const RunTimes& times,
-                         const scheduler::CostModel& costs, const std::vector<int>& numbers,
-                         FrameRecord& frame) {
-    plans_.record(plan, costs, numbers, frame);
+void FrameRecorder::list(const FramePlan& plan, const RunTimes& times, const TimingModel& timing,
+                         const std::vector<int>& numbers, FrameRecord& frame) {
+    plans_.record(plan, timing, numbers, frame);
     const auto& tasks = plan.step->tasks();
     for (std::size_t d = 0; d < times.tasks.size(); ++d) {
         for (const TaskTime& t : times.tasks[d]) {
             const auto items =
-                static_cast<std::uint64_t>(tasks[static_cast<std::size_t>(t.task)].items);
+                static_cast<std::uint64_t>(timing.items(tasks[static_cast<std::size_t>(t.task)]));
             frame.executions.push_back(
                 {u32(t.instance), u32(t.task), u32(numbers[d]), items, t.start, t.end});
         }

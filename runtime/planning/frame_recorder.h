@@ -19,7 +19,7 @@ public:
     void sum_up(const FramePlan& plan, const RunTimes& times, int substeps,
                 const std::vector<int>& numbers, FrameRecord& frame) const;
     /// Every task, planned and run, and every copy. To be called before anything is learnt from it.
-    void list(const FramePlan& plan, const RunTimes& times, const scheduler::CostModel& costs,
+    void list(const FramePlan& plan, const RunTimes& times, const TimingModel& timing,
               const std::vector<int>& numbers, FrameRecord& frame);
 
 private:

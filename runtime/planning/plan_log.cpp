@@ -25,7 +25,8 @@ PlanRecord task_record(scheduler::TaskId id, const Task& task) {
     return record;
 }
 
-std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& numbers) {
+std::vector<PlanRecord> tasks_of(const FramePlan& plan, const TimingModel& timing,
+                                 const std::vector<int>& numbers) {
     std::vector<PlanRecord> records;
     const auto number_of = [&](std::size_t device) { return u32(numbers[device]); };
     for (scheduler::ProcessorId d = 0; d < plan.graph.processor_count(); ++d) {
@@ -34,6 +35,7 @@ std::vector<PlanRecord> tasks_of(const FramePlan& plan, const std::vector<int>& 
             const Task& task = plan.step->tasks()[id];
             const std::size_t region = index(task.region);
             PlanRecord& record = records.emplace_back(task_record(id, task));
+            record.items = static_cast<std::uint64_t>(timing.items(task));
             record.device = number_of(d);
             record.home = plan.is_placed()
                               ? record.device
@@ -94,12 +96,12 @@ std::vector<LinkRecord> links_of(const scheduler::TaskGraph& graph,
 
 }  // namespace
 
-void PlanLog::record(const FramePlan& plan, const scheduler::CostModel& costs,
+void PlanLog::record(const FramePlan& plan, const TimingModel& timing,
                      const std::vector<int>& numbers, FrameRecord& frame) {
     frame.planner = plan.plan.found_by;
     frame.graph = graph_of(plan, numbers);
-    frame.plan = tasks_of(plan, numbers);
-    frame.costs = costs_of(costs, numbers);
+    frame.plan = tasks_of(plan, timing, numbers);
+    frame.costs = costs_of(timing.costs(), numbers);
     frame.links = links_of(plan.graph, numbers);
 }
 

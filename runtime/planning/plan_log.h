@@ -17,8 +17,8 @@ public:
     /// Fills the record's plan, its planner, graph, costs and links. To be called before anything
     /// is learnt from how the plan ran.
     /// numbers  [processor of the plan] number of the device: not all devices of a run may be left
-    void record(const FramePlan& plan, const scheduler::CostModel& costs,
-                const std::vector<int>& numbers, FrameRecord& frame);
+    void record(const FramePlan& plan, const TimingModel& timing, const std::vector<int>& numbers,
+                FrameRecord& frame);
 
 private:
     std::shared_ptr<const GraphRecord> graph_of(const FramePlan& plan,

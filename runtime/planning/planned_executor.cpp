@@ -172,7 +172,7 @@ void PlannedExecutor::learn(const FramePlan& plan, const RunTimes& times, int in
 void PlannedExecutor::record(const FramePlan& plan, const RunTimes& times, int instances,
                              bool tasks, FrameRecord& frame) {
     recorder_.sum_up(plan, times, instances, active_, frame);
-    if (tasks) recorder_.list(plan, times, planner_->timing().costs(), active_, frame);
+    if (tasks) recorder_.list(plan, times, planner_->timing(), active_, frame);
 }
 
 bool PlannedExecutor::make_room() { return grow_tables(maker_->tables(), *executor_); }

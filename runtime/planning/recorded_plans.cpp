@@ -22,12 +22,13 @@ scheduler::Plan plan_from(const std::vector<PlanRecord>& tasks, std::size_t devi
     return plan;
 }
 
-bool is_recorded_as(const Task& own, const PlanRecord& task) {
+bool is_recorded_as(const Task& own, const PlanRecord& task, bool items_vary) {
     const auto u32 = [](int value) { return static_cast<std::uint32_t>(value); };
     return u32(own.body->kind) == task.kind && u32(own.iteration) == task.iteration &&
            u32(own.first_strip) == task.first_strip &&
            u32(own.end_strip - own.first_strip) == task.strip_count &&
-           static_cast<std::uint64_t>(own.items) == task.items;
+           (items_vary ? static_cast<std::uint64_t>(own.items) <= task.items
+                       : static_cast<std::uint64_t>(own.items) == task.items);
 }
 
 }  // namespace
@@ -37,8 +38,12 @@ void refuse_replay(std::uint32_t frame, const std::string& what) {
                     "; the trace may be of another version of weft");
 }
 
-RecordedPlans::RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step)
-    : recorded_(recorded), strip_count_(strip_count), make_step_(std::move(make_step)) {}
+RecordedPlans::RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step,
+                             ItemsVary items_vary)
+    : recorded_(recorded),
+      strip_count_(strip_count),
+      make_step_(std::move(make_step)),
+      items_vary_(std::move(items_vary)) {}
 
 RecordedPlans::Planned RecordedPlans::plan_of(const FrameRecord& recorded, std::size_t devices) {
     const std::vector<PlanRecord> tasks = tasks_in_order(recorded_, recorded);
@@ -70,7 +75,8 @@ void RecordedPlans::check(const Step& step, const std::vector<PlanRecord>& tasks
                                  std::to_string(step.tasks().size()) + " here");
     }
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-        if (is_recorded_as(step.tasks()[t], tasks[t])) continue;
+        const Task& own = step.tasks()[t];
+        if (is_recorded_as(own, tasks[t], items_vary_(own))) continue;
         refuse_replay(frame, "task '" + task_name(recorded_, tasks[t]) + "' is another one here");
     }
 }

@@ -20,8 +20,12 @@ class RecordedPlans {
 public:
     using MakeStep = std::function<Step(const Division&)>;
 
+    /// Whether a task's items are its own and more, frame by frame (row_items.h).
+    using ItemsVary = std::function<bool(const Task&)>;
+
     /// make_step  of the work at hand, which has so many strips
-    RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step);
+    RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step,
+                  ItemsVary items_vary);
 
     struct Planned {
         const Step* step = nullptr;  ///< lives as long as this, or until forget_steps()
@@ -41,6 +45,7 @@ private:
     const RunDescription& recorded_;
     int strip_count_;
     MakeStep make_step_;
+    ItemsVary items_vary_;
     std::map<std::uint32_t, Step> steps_;  ///< by number of the recorded graph
 };
 

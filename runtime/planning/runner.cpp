@@ -96,9 +96,12 @@ public:
     void replay(const RunDescription& run, const FrameRecord& frame) {
         if (frame.substeps < 1) refuse_replay(frame.frame, "its instances were not recorded");
         known_->check();
-        RecordedPlans plans(run, work_.strip_count(), [&](const Division& division) {
-            return work_.make_step(division.partition().spread(work_.iterate_count()));
-        });
+        RecordedPlans plans(
+            run, work_.strip_count(),
+            [&](const Division& division) {
+                return work_.make_step(division.partition().spread(work_.iterate_count()));
+            },
+            [&](const Task& task) { return run_->planner().timing().items_vary(task); });
         const auto [step, plan] = plans.plan_of(frame, run_->devices().size());
         start_.take(carried_);
         execute(*step, plan, static_cast<int>(frame.substeps));

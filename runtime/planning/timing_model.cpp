@@ -103,6 +103,7 @@ std::vector<TimingModel::Arrival> TimingModel::find_arrivals(const Step& step,
 /// that waits much would look slow otherwise, get less to do, and wait even more.
 std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& plan,
                                        const RunTimes& times, int instances) {
+    rows_.note();
     std::vector<double> mean(step.tasks().size(), 0.0);
     const auto arrivals = find_arrivals(step, plan, times, instances);
     std::vector<Exchanges> exchanges(links_.size());
@@ -124,8 +125,7 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
             mean[number] += cost / instances;
             const Task& task = step.tasks()[number];
             costs_.observe(static_cast<std::uint32_t>(task.body->kind),
-                           static_cast<std::uint32_t>(device), static_cast<double>(task.items),
-                           cost);
+                           static_cast<std::uint32_t>(device), items(task), cost);
             free = time.end;
         }
     }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "runtime/executor.h"
+#include "runtime/planning/row_items.h"
 #include "scheduler/cost_model.h"
 #include "scheduler/task_graph.h"
 
@@ -21,9 +22,14 @@ class TimingModel {
 public:
     TimingModel(std::size_t kinds, std::size_t devices);
 
+    /// From now on the entries of rows count as items, too: those of the last frame learnt from.
+    void count_rows_of(StepMaker& maker) { rows_ = RowItems(maker); }
+    /// What the cost model counts of a task.
+    double items(const Task& task) const { return rows_.of(task); }
+    bool items_vary(const Task& task) const { return rows_.vary(task.body->kind); }
     double task(const Task& task, int device) const {
         return costs_.predict(static_cast<std::uint32_t>(task.body->kind),
-                              static_cast<std::uint32_t>(device), static_cast<double>(task.items));
+                              static_cast<std::uint32_t>(device), items(task));
     }
     double latency(int from, int to) const { return links_[index(from, to)].latency; }
     const Link& link(int from, int to) const { return links_[index(from, to)]; }
@@ -57,6 +63,7 @@ private:
     scheduler::CostModel costs_;
     std::vector<Link> links_;  ///< [from][to]
     std::vector<int> unseen_;  ///< [from][to] frames since its latency was measured
+    RowItems rows_;
 };
 
 }  // namespace weft

@@ -52,7 +52,7 @@ bend = { stiffness = 1.0e-4 }
             machine.speeds[0].per_item *= 1.07;  // so that plans change
             const FramePlan& plan = planner.next();
             FrameRecord frame;
-            log.record(plan, planner.timing().costs(), numbers, frame);
+            log.record(plan, planner.timing(), numbers, frame);
             expect_same(run, frame, plan.plan, numbers);
             EXPECT_EQ(frame.graph->strips.size(), count);
             graphs_.insert(frame.graph);
@@ -111,7 +111,7 @@ TEST_F(PlanLogTest, HoldsPlacements) {
     const FramePlan plan = planner.next();
     ASSERT_TRUE(plan.is_placed());
     FrameRecord frame;
-    PlanLog(3).record(plan, planner.timing().costs(), {0, 2}, frame);
+    PlanLog(3).record(plan, planner.timing(), {0, 2}, frame);
     EXPECT_EQ(std::accumulate(frame.graph->strips.begin(), frame.graph->strips.end(), 0U),
               static_cast<std::uint32_t>(model_.strips.count()));
     ASSERT_EQ(frame.plan.size(), plan.step->tasks().size());

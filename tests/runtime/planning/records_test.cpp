@@ -26,7 +26,7 @@ TEST(FrameRecorder, ListsEveryTaskAndCopyByTheRunsNumbers) {
     times.copies = {{0, 3, 0, 1, 1000, 2.5, 2.75}};
 
     FrameRecord frame;
-    FrameRecorder(3).list(plan, times, timing.costs(), {2, 0}, frame);  // device 1 is lost
+    FrameRecorder(3).list(plan, times, timing, {2, 0}, frame);  // device 1 is lost
     ASSERT_EQ(frame.executions.size(), 4U);
     const std::vector<std::uint32_t> devices{2, 2, 0, 0};
     const std::vector<std::uint64_t> items{30, 60, 50, 100};
@@ -56,8 +56,9 @@ TEST(RecordedPlans, RefuseAnyTaskThatIsAnotherOneHere) {
     run.devices.resize(2);
     const Division division{{3, 5}};
     const FrameRecord frame = record_of(work.make_step(division.partition()), division);
-    RecordedPlans plans(run, kStrips,
-                        [&](const Division& d) { return work.make_step(d.partition()); });
+    RecordedPlans plans(
+        run, kStrips, [&](const Division& d) { return work.make_step(d.partition()); },
+        [](const Task&) { return false; });
     EXPECT_EQ(plans.plan_of(frame, 2).plan.placements.size(), 4U);
     for (std::size_t t = 0; t < frame.plan.size(); ++t) {
         FrameRecord other = frame;
@@ -67,6 +68,30 @@ TEST(RecordedPlans, RefuseAnyTaskThatIsAnotherOneHere) {
     FrameRecord fewer = frame;
     fewer.plan.pop_back();
     EXPECT_THROW(plans.plan_of(fewer, 2), UserError);
+}
+
+/// Rows make items more, and only of tasks that have some.
+TEST(RecordedPlans, TakeMoreItemsOnlyWhereTheyVary) {
+    TwoStages work(kStrips, 80, 160);
+    RunDescription run;
+    run.kinds = work.kinds();
+    run.devices.resize(2);
+    const Division division{{3, 5}};
+    const FrameRecord frame = record_of(work.make_step(division.partition()), division);
+    RecordedPlans plans(
+        run, kStrips, [&](const Division& d) { return work.make_step(d.partition()); },
+        [](const Task& task) { return task.body->kind == 1; });
+    for (std::size_t t = 0; t < frame.plan.size(); ++t) {
+        FrameRecord more = frame, fewer = frame;
+        more.plan[t].items += 1;
+        fewer.plan[t].items -= 1;
+        EXPECT_THROW(plans.plan_of(fewer, 2), UserError) << t;
+        if (frame.plan[t].kind == 1) {
+            EXPECT_EQ(plans.plan_of(more, 2).plan.placements.size(), 4U) << t;
+        } else {
+            EXPECT_THROW(plans.plan_of(more, 2), UserError) << t;
+        }
+    }
 }
 
 }  // namespace
