@@ -52,7 +52,7 @@ const Shipped kShipped[] = {
     {"pillows", Method::kVbd, "3246d8f92bd933ed3262fe85362c4231"},
     {"funnel", Method::kVbd, "2d1d55564cd980535b6a514118109ea7"},
     {"dress", Method::kVbd, "aed730e4cd49f72f9ba1735200ae064b"},
-    {"jersey", Method::kVbd, "4952355221b787fd5c43da1d6cb90053"},
+    {"jersey", Method::kVbd, "a1530ef61e1bc24779d1d0641b1972a4"},
     {"letters", Method::kVbd, "12e263aec533a82eb7272ada34440da9"},
 };
 
