@@ -35,9 +35,11 @@ WEFT_INLINE tetrahedron_entry load_tetrahedron(WEFT_GLOBAL const float4* positio
 }
 
 /// Adds the tetrahedra's part of each vertex' gradient and Hessian block. Parameters as in
-/// gather_springs, and others    [3 * entries] column-major: the tetrahedron's other vertices shape
-/// [9 * entries] column-major: their b [1/m]; the vertex' own balances them material  [2 * entries]
-/// column-major: mu, lambda, times the rest volume [J]
+/// gather_springs, and
+///
+/// others    [3 * entries] column-major: the tetrahedron's other vertices
+/// shape     [9 * entries] column-major: their b [1/m]; the vertex' own balances them
+/// material  [2 * entries] column-major: mu, lambda, times the rest volume [J]
 WEFT_KERNEL(gather_tetrahedra, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* vertices,
             WEFT_GLOBAL const int* slices, WEFT_GLOBAL const int* others,
             WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,

@@ -16,6 +16,7 @@ WEFT_INLINE woven woven_of(triangle_entry t, WEFT_GLOBAL const float* material, 
 
 /// Adds woven cloth's part of each vertex' gradient and Hessian block. Parameters as in
 /// gather_springs, and
+///
 /// others, shape  as in load_triangle()
 /// material       [3 * entries] column-major: warp, weft, shear stiffness, times the rest area [J]
 WEFT_KERNEL(gather_woven, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* vertices,

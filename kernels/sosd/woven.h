@@ -8,9 +8,12 @@
 WEFT_KERNELS_BEGIN
 
 /// Moves the three vertices of each stencil, a triangle of woven cloth, towards the minimum of
-/// their common quadratic model of E while all others stand still. shape     [4 * stencils]
-/// column-major: b_1, b_2 [1/m] material  [3 * stencils] column-major: warp, weft, shear stiffness,
-/// times the rest area [J] For the others see stencil.h.
+/// their common quadratic model of E while all others stand still.
+///
+/// shape     [4 * stencils] column-major: b_1, b_2 [1/m]
+/// material  [3 * stencils] column-major: warp, weft, shear stiffness, times the rest area [J]
+///
+/// For the others see stencil.h.
 WEFT_KERNEL(solve_woven_stencils, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const int* corners,
             WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,
