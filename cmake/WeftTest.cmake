@@ -35,7 +35,7 @@ set(WEFT_TEST_ENVIRONMENT
     XDG_CACHE_HOME=${PROJECT_BINARY_DIR}/cache          # not the user's caches
     ASAN_OPTIONS=strict_string_checks=1:detect_stack_use_after_return=1
     LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/sanitizers/lsan.txt:print_suppressions=0
-    TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/sanitizers/tsan.txt
+    TSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/sanitizers/tsan.txt:history_size=7
     UBSAN_OPTIONS=print_stacktrace=1)
 
 add_custom_target(threads)
