@@ -38,9 +38,9 @@ void refuse_replay(std::uint32_t frame, const std::string& what) {
                     "; the trace may be of another version of weft");
 }
 
-RecordedPlans::RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step,
+RecordedPlans::RecordedPlans(RunDescription recorded, int strip_count, MakeStep make_step,
                              ItemsVary items_vary)
-    : recorded_(recorded),
+    : recorded_(std::move(recorded)),
       strip_count_(strip_count),
       make_step_(std::move(make_step)),
       items_vary_(std::move(items_vary)) {}

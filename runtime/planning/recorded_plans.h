@@ -24,7 +24,7 @@ public:
     using ItemsVary = std::function<bool(const Task&)>;
 
     /// make_step  of the work at hand, which has so many strips
-    RecordedPlans(const RunDescription& recorded, int strip_count, MakeStep make_step,
+    RecordedPlans(RunDescription recorded, int strip_count, MakeStep make_step,
                   ItemsVary items_vary);
 
     struct Planned {
@@ -42,7 +42,7 @@ private:
     const Step& step_for(const FrameRecord& recorded);
     void check(const Step& step, const std::vector<PlanRecord>& tasks, std::uint32_t frame) const;
 
-    const RunDescription& recorded_;
+    RunDescription recorded_;
     int strip_count_;
     MakeStep make_step_;
     ItemsVary items_vary_;
