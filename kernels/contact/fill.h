@@ -256,7 +256,10 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     const whole vertex = item_numbers(i);
     const whole place = load_whole(surface, i);
     const mask is_outside = place > none;
-    const whole apex = is_outside ? place - one : none;
+    // Where a lane has nothing to read, it reads what its neighbour does: whatever lies elsewhere may
+    // be written meanwhile, by detection in another strip's next substep.
+    const int last = largest_whole(place);
+    const whole apex = is_outside ? place - one : splat_whole(last > 0 ? last - 1 : 0);
     const whole plane_start = load_whole(plane_rows, i);
     const whole plane_room = load_whole(plane_rows, column(i, vertex_count, 1));
     const whole start = load_whole(rows, i);
@@ -265,7 +268,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
 
     const real free = load4(goals, i).w;
     const mask moves = both(is_outside, free > splat(0.0f));
-    const whole own = gather_whole(vt_counts, address(apex));
+    const whole own = last > 0 ? gather_whole(vt_counts, address(apex)) : none;
     const whole own_count = moves ? own : none;
     const whole own_start = gather_whole(vt_rows, address(apex));
     const int own_longest = largest_whole(own_count);
@@ -290,7 +293,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     const int most_triangles = largest_whole(triangles_here);
     for (int n = 0; n < most_triangles; ++n) {
         const mask has = splat_whole(n) < triangles_here;
-        const whole from = has ? first_triangle + splat_whole(n) : none;
+        const whole from = has ? first_triangle + splat_whole(n) : first_triangle;
         const whole t = gather_whole(triangle_list, address(from));
         const whole found = gather_whole(tv_counts, address(t));
         const whole count = has ? found : none;
@@ -321,7 +324,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     const int most_edges = largest_whole(edges_here);
     for (int n = 0; n < most_edges; ++n) {
         const mask has = splat_whole(n) < edges_here;
-        const whole from = has ? first_edge + splat_whole(n) : none;
+        const whole from = has ? first_edge + splat_whole(n) : first_edge;
         const whole e = gather_whole(edge_list, address(from));
         const whole found = gather_whole(ee_counts, address(e));
         const whole count = has ? found : none;

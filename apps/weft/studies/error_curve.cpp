@@ -193,7 +193,7 @@ double MeasuredCurve::least_energy() const {
 }
 
 std::vector<Vec3> good_guess(const ErrorOptions& options, const ErrorProblem& problem) {
-    constexpr int kIterations = 100;
+    constexpr int kIterations = 40;
     try {
         const bool has_contacts = problem.model.scene.contact.has_value();
         return end_of(options, problem, has_contacts ? "vbd" : "newton", kIterations);
