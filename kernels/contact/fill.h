@@ -256,8 +256,8 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     const whole vertex = item_numbers(i);
     const whole place = load_whole(surface, i);
     const mask is_outside = place > none;
-    // Where a lane has nothing to read, it reads what its neighbour does: whatever lies elsewhere may
-    // be written meanwhile, by detection in another strip's next substep.
+    // Where a lane has nothing to read, it reads what its neighbour does: whatever lies elsewhere
+    // may be written meanwhile, by detection in another strip's next substep.
     const int last = largest_whole(place);
     const whole apex = is_outside ? place - one : splat_whole(last > 0 ? last - 1 : 0);
     const whole plane_start = load_whole(plane_rows, i);
