@@ -5,6 +5,7 @@
 #include "kernels/descent/substep.h"
 #include "kernels/newton/control.h"
 #include "kernels/vbd/solve.h"
+#include "simulation/families/tetrahedra/tetrahedra.h"
 #include "simulation/solver/energy_sum.h"
 #include "simulation/solver/newton/accesses.h"
 #include "simulation/solver/newton/conjugate_gradients.h"
@@ -212,10 +213,17 @@ private:
         return launch(kernels::keep_or_revert, model_.vertices(), values, kept, control_);
     }
 
-    /// The last iterations take the most.
+    /// The last iterations take the most. Where the matrix costs as much as many steps, a few more
+    /// of them are cheaper than another matrix.
     int steps_of(int iteration) const {
         const int most = model_.scene.solver.cg_steps;
-        return iteration > 20 ? most : std::min(most, std::max(1, most / 8) << iteration);
+        const int first = is_mostly_solid() ? most / 2 : most / 8;
+        return iteration > 20 ? most : std::min(most, std::max(1, first) << iteration);
+    }
+
+    bool is_mostly_solid() const {
+        const auto* tetrahedra = model_.find<Tetrahedra>();
+        return tetrahedra != nullptr && tetrahedra->count() > model_.vertex_count();
     }
 
     void add_iteration(Step& step, int iteration, int gradient_steps) {
