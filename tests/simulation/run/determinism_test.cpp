@@ -54,7 +54,7 @@ const TestScene kScenes[] = {
     {"JpgdSewn", kSewn, Method::kJpgd, "dd0359d5ad943f6c88704b7b46e78527"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "b5e1dd06c0d5d8291ed21db2e9ebf69d"},
     {"NewtonEverything", kEverything, Method::kNewton, "cee5fa2ceb681ed46f2b3b886f25d0d5"},
-    {"NewtonSolids", kSolids, Method::kNewton, "16630881460484d0406be0bdfe1f5d9f"},
+    {"NewtonSolids", kSolids, Method::kNewton, "f6f7b1129aebe2cede4c27ba39a16ed4"},
     {"NewtonSewn", kSewn, Method::kNewton, "12c6c8e864d86e65b04735421b5b436c"},
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "2e7bddb8126824228e2922872b38ec25"},
