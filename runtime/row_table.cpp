@@ -73,12 +73,32 @@ bool RowTable::overflowed() const {
     return false;
 }
 
-void RowTable::grow() {
+/// What grow() leaves is never tight.
+bool RowTable::is_tight(int strip) const {
+    return 4L * most_needed(strip) > 3L * room_[static_cast<std::size_t>(strip)];
+}
+
+bool RowTable::is_tight() const {
     for (int strip = 0; strip < items_.strip_count; ++strip) {
-        int& room = room_[static_cast<std::size_t>(strip)];
-        const int most = most_needed(strip);
-        if (most > room) room = most + most / 2;
+        if (is_tight(strip)) return true;
     }
+    return false;
+}
+
+void RowTable::grow() {
+    std::vector<int> room = room_;
+    for (int strip = 0; strip < items_.strip_count; ++strip) {
+        if (!is_tight(strip)) continue;
+        const int most = most_needed(strip);
+        const int wanted = most + std::max(most / 2, 1);
+        const int last = std::min(strip + 1, items_.strip_count - 1);
+        for (int near = std::max(strip - 1, 0); near <= last; ++near) {
+            int& own = room[static_cast<std::size_t>(near)];
+            own = std::max(own, wanted);
+        }
+    }
+    const int least = *std::ranges::max_element(room) / 2;
+    std::ranges::transform(room, room_.begin(), [=](int own) { return std::max(own, least); });
     place_rows();
     for (const auto& column : columns_) column->resize(entry_count());
     ++generation_;

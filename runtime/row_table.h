@@ -15,7 +15,8 @@ namespace weft {
 /// Rows have room for so many entries, the same for all rows of a strip. A kernel that finds more
 /// keeps what there is room for, and notes how many there were; the host looks at that at the end
 /// of a frame (overflowed()), makes room (grow()) and runs the frame again from its start. So
-/// results never depend on the room that there was.
+/// results never depend on the room that there was. As that costs a whole frame, the host makes
+/// room between frames, too, where rows come near their end (is_tight()).
 ///
 /// Rows lie in slices of 8 items, entry k of an item at start + kStride * k, as in
 /// kernels/descent/rows.h. The entries of a strip lie together, so that tasks can say by strips
@@ -49,8 +50,11 @@ public:
 
     /// Whether a row wanted more than there was room for; needs() must be the host's.
     bool overflowed() const;
-    /// Makes room for all that was wanted and half as much again, in strips where it was not
-    /// enough.
+    /// Whether a row wanted so much that there is little left for the next frame.
+    bool is_tight() const;
+    /// Makes room for all that was wanted and half as much again, in strips where it was tight,
+    /// as much in the strips beside them, and everywhere half of the most that a strip has: where
+    /// rows get longer, others soon do.
     void grow();
     /// How often it has grown.
     int generation() const { return generation_; }
@@ -62,6 +66,7 @@ public:
 private:
     std::size_t entry_count() const;
     int most_needed(int strip) const;
+    bool is_tight(int strip) const;
     void place_rows();
 
     std::string name_;

@@ -323,6 +323,7 @@ RunTimes Simulation::run_substeps(const Step& step, const scheduler::Plan& plan)
 
 /// False: it has to be done again.
 bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& frame) {
+    run_->make_room_ahead();
     place();
     end_part(frame, frame.place_time);
     const FramePlan& plan = run_->next();
@@ -345,6 +346,7 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
 
 void Simulation::advance_by(const Step& step, const scheduler::Plan& plan) {
     begin_frame();
+    run_->make_room_ahead();
     place();
     run_frame(step, plan);
     FrameRecord frame;

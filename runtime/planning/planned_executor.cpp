@@ -177,11 +177,16 @@ void PlannedExecutor::record(const FramePlan& plan, const RunTimes& times, int i
 
 bool PlannedExecutor::make_room() { return grow_tables(maker_->tables(), *executor_); }
 
-bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor) {
+void PlannedExecutor::make_room_ahead() {
+    grow_tables(maker_->tables(), *executor_, &RowTable::is_tight);
+}
+
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor,
+                 bool (RowTable::*has_to_grow)() const) {
     bool grew = false;
     for (RowTable* table : tables) {
         executor.fetch(table->needs());
-        if (!table->overflowed()) continue;
+        if (!(table->*has_to_grow)()) continue;
         table->grow();
         executor.rebind(table->resized_buffers());
         for (BufferStorage* buffer : table->written_buffers()) executor.host_wrote(*buffer);

@@ -68,6 +68,9 @@ public:
     /// Lets tables grow in which rows had no room. Says whether there were any: then what has been
     /// computed is of no use.
     bool make_room();
+    /// Lets tables grow whose rows had little room left, so that the frame to come need not be run
+    /// twice. Between frames.
+    void make_room_ahead();
 
     /// From now on without the device that was lost; what the host has is current. Throws RunError
     /// if there is no other.
@@ -105,6 +108,8 @@ private:
 
 /// Lets tables grow in which rows had no room in what the executor ran last; whether there were
 /// any.
-bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor);
+/// has_to_grow  another reason
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor,
+                 bool (RowTable::*has_to_grow)() const = &RowTable::overflowed);
 
 }  // namespace weft

@@ -189,6 +189,7 @@ private:
     /// False: a device was lost, and the frame has to be done again.
     bool run_planned(int instances, FrameRecord& frame) {
         try {
+            run_->make_room_ahead();
             const FramePlan& plan = run_->next();
             end_part(frame, frame.plan_time);
             const RunTimes times = execute(*plan.step, plan.plan, instances);

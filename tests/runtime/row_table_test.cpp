@@ -60,22 +60,36 @@ TEST_F(RowTables, PacksAreContiguous) {
     }
 }
 
-TEST_F(RowTables, StripsThatWereTooSmallGrowAndOthersDoNot) {
+TEST_F(RowTables, StripsThatWereTooSmallGrowAndTheirNeighbours) {
     RowTable table("table", items_, 2);
     auto& column = table.add_column<float>("distances");
     column[0] = 1.0f;
-    std::fill(table.needs().data(), table.needs().data() + 31, 2);
+    std::fill(table.needs().data(), table.needs().data() + 31, 1);
     EXPECT_FALSE(table.overflowed());
+    EXPECT_FALSE(table.is_tight());
     table.needs()[10] = 5;
     table.needs()[12] = 9;
     EXPECT_TRUE(table.overflowed());
     table.grow();
     EXPECT_FALSE(table.overflowed());
+    EXPECT_FALSE(table.is_tight());
     EXPECT_EQ(table.generation(), 1);
     EXPECT_EQ(column.generation(), 1);
     EXPECT_EQ(column[0], 0.0f);
-    const auto all = places(table, {2, 2, 13, 2});
+    const auto all = places(table, {6, 13, 13, 13});
     EXPECT_LT(*all.rbegin(), static_cast<int>(column.count()));
+}
+
+/// Whatever was wanted: growing anew in each frame would cost more than it saves.
+TEST_F(RowTables, GrowsOnceForWhatIsWanted) {
+    for (int wanted = 1; wanted < 40; ++wanted) {
+        RowTable table("table", items_, wanted);
+        table.needs()[10] = wanted;
+        EXPECT_FALSE(table.overflowed()) << wanted;
+        EXPECT_TRUE(table.is_tight()) << wanted;
+        table.grow();
+        EXPECT_FALSE(table.is_tight()) << wanted;
+    }
 }
 
 /// A row without room has a start that may be read.
