@@ -29,8 +29,7 @@
 //   3  outside yy, yz, zz; 0
 #define WEFT_BODY_PARTS 4
 
-#include "kernels/contact/rows.h"
-#include "kernels/descent/free_bodies.h"
+#include "kernels/contact/pushes.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -53,50 +52,34 @@ WEFT_INLINE body_sum add_share(body_sum a, body_sum b, real share) {
     return a;
 }
 
-/// Adds what contacts with others do to one vertex at the positions at hand: as gather_contacts.
-/// bodies    [vertices] which of the free bodies each belongs to; `body_count`: to none
-/// leaders   [bodies] the first one of each body's group
-/// shifts    [bodies + 1] how far each has gone in the rounds before [m]; the last one is zero
-/// has_moved  0 in the first round, where `shifts` has those of another substep, which may have
-///            ended badly: nothing reads them
-/// yielding  h^2 / M of the vertex' body [m/N]
-/// others as in gather_contacts
+/// Adds what contacts with others do to a body, as one column of its vertices has collected them.
+/// own_body    of the column
+/// yielding    h^2 / M of the body [m/N]
+/// others as in add_pushed_lags
 WEFT_INLINE body_sum add_pushes_of_others(
-    body_sum sum, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* bodies,
-    WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const float4* shifts, int has_moved,
-    WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-    WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-    WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-    WEFT_GLOBAL const float4* measures, integer vertex, real yielding, float friction, float creep,
-    int body_count) {
-    const real zero = splat(0.0f);
-    const whole last = splat_whole(body_count - 1);
-    const whole start = gather_whole(rows, vertex);
-    const whole count = gather_whole(counts, vertex);
-    const whole own_side = gather_whole(bodies, vertex);
-    const real3 own_shift = xyz(gather4(shifts, address(own_side)));
+    body_sum sum, WEFT_GLOBAL const float4* shifts, int has_moved, WEFT_GLOBAL const int* rows,
+    WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes, WEFT_GLOBAL const float4* sides,
+    WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces, item i, integer own_body,
+    real yielding, float friction, float creep) {
+    const real3 no_way = make3(splat(0.0f), splat(0.0f), splat(0.0f));
+    const whole start = load_whole(rows, i);
+    const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
-        contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
-                                       weights, measures, entry);
-        // The first vertex and the last one are never on one side.
-        const whole one_side = gather_whole(bodies, address(gather_whole(corner0, entry)));
-        const whole other_side = gather_whole(bodies, address(gather_whole(corner3, entry)));
+        contact_entry c = load_push(sides, slips, forces, entry);
+        const whole code = gather_whole(codes, entry);
+        const whole opposite = code >> splat_whole(1);
         if (has_moved) {
-            const whole opposite = one_side == own_side ? other_side : one_side;
-            const real3 way = subtract(own_shift, xyz(gather4(shifts, address(opposite))));
+            const real3 way =
+                subtract(xyz(gather4(shifts, own_body)), xyz(gather4(shifts, address(opposite))));
             c.gap = c.gap + dot3(way, c.normal);
             c.slip = add(c.slip, along_surface(way, c.normal));
             c.ahead = c.range;
         }
-        const derivatives push = add_push(zero_derivatives(), c, both(on, one_side != other_side),
-                                          make3(zero, zero, zero), friction, creep);
-        const whole one = gather_whole(leaders, address(smaller_whole(one_side, last)));
-        const whole other = gather_whole(leaders, address(smaller_whole(other_side, last)));
-        const mask are_free = larger_whole(one_side, other_side) < splat_whole(body_count);
-        const real outside = both(are_free, one == other) ? zero : splat(1.0f);
+        const derivatives push = add_push(zero_derivatives(), c, on, no_way, friction, creep);
+        const real outside = code > opposite + opposite ? splat(1.0f) : splat(0.0f);
         const body_sum pushed = {scale(push.gradient, splat(-1.0f)), push.hessian,
                                  scale_sym(push.hessian, outside)};
         sum = add_share(sum, pushed, yielding);
@@ -105,40 +88,30 @@ WEFT_INLINE body_sum add_pushes_of_others(
 }
 
 /// As add_lags, with what contacts do.
-/// column_rows   [2 * columns] the `rows` of add_lags
-/// partials      [4 * columns] written, column-major, see above
-/// h2            the square of the substep [s^2]
-/// column_count  of columns
-/// leaders       [substeps * bodies]
-/// others as in add_pushes_of_others and add_lags
-WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
-            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
-            WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* bodies,
-            WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const float4* shifts,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
-            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float4* partials, float friction,
-            float creep, float h2, int has_moved, int column_count, int body_count, int substep) {
+/// standing       [columns] as collect_pushes leaves it, as are rows to forces
+/// column_bodies  [columns] of which body each is
+/// masses         [bodies] [kg]
+/// shifts         [bodies + 1] how far each has gone in the rounds before [m]; the last one is zero
+/// partials       [4 * columns] written, column-major, see above
+/// friction, creep  as in add_push
+/// h2             the square of the substep [s^2]
+/// has_moved      0 in the first round, where `shifts` has those of another substep, which may have
+///                ended badly: nothing reads them
+WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
+            WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
+            WEFT_GLOBAL const float4* shifts, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes,
+            WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
+            WEFT_GLOBAL const float4* forces, WEFT_GLOBAL float4* partials, float friction,
+            float creep, float h2, int has_moved, int column_count) {
+    const integer own_body = load_index(column_bodies, i);
+    const real4 left = load4(standing, i);
     body_sum sum = no_body_sum();
-    const int length = column_rows[2 * i.first + 1];
-    for (int k = 0; k < length; ++k) {
-        const item entry = {column_rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
-        const integer v = load_index(members, entry);
-        const real4 x = gather4(positions, v);
-        const real share = load(shares, entry);
-        real3 lag = subtract(xyz(gather4(targets, v)), xyz(x));
-        if (has_moved) {
-            lag = subtract(lag, xyz(gather4(shifts, address(gather_whole(bodies, v)))));
-        }
-        sum.lag = add_scaled(sum.lag, lag, share);
-        const real yielding = share * x.w * splat(h2);
-        sum = add_pushes_of_others(sum, positions, bodies, leaders + substep * body_count, shifts,
-                                   has_moved, rows, counts, corner0, corner1, corner2, corner3,
-                                   normals, weights, measures, v, yielding, friction, creep,
-                                   body_count);
-    }
+    sum.lag = xyz(left);
+    if (has_moved) sum.lag = add_scaled(sum.lag, xyz(gather4(shifts, own_body)), -left.w);
+    const real yielding = splat(h2) / gather(masses, own_body);
+    sum = add_pushes_of_others(sum, shifts, has_moved, rows, counts, codes, sides, slips, forces, i,
+                               own_body, yielding, friction, creep);
     const real4 part1 = {sum.block.xy, sum.block.xz, sum.block.yy, sum.block.yz};
     const real4 part2 = {sum.block.zz, sum.outside.xx, sum.outside.xy, sum.outside.xz};
     const real4 part3 = {sum.outside.yy, sum.outside.yz, sum.outside.zz, splat(0.0f)};
@@ -169,7 +142,7 @@ WEFT_INLINE body_sum load_body_sum(WEFT_GLOBAL const float4* lags, int lag_count
 /// rests      [3 * bodies] written, column-major: what this leaves to its group, and of what:
 ///            xyz [kg m], w: the mass, or 0 if it touches no other body [kg]; then the mass times
 ///            `outside`: xx, xy, xz, yy; and yz, zz
-/// has_moved  as in add_pushes_of_others
+/// has_moved  as in add_pushed_lags
 /// most_runs  that a body has; lag_count is that more than there are runs
 WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,

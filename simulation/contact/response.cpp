@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "kernels/contact/begin.h"
-#include "kernels/contact/bodies.h"
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
 #include "kernels/contact/quiet.h"
@@ -295,16 +294,6 @@ void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int
     const int half = iteration % 2 * all;
     task.reads(snapshots_, half, half + all);
     rows().add_reads(task, first_strip, end_strip, first, last);
-}
-
-Launch ContactResponse::add_lags(const BodyColumns& columns, Buffer<float4>& positions,
-                                 Buffer<float4>& targets, Buffer<int>& bodies, BodyGroups& groups,
-                                 Buffer<float4>& shifts, int has_moved, Buffer<float4>& partials) {
-    return launch(kernels::add_pushed_lags, columns.by_strip, positions, targets, columns.members,
-                  columns.shares, columns.rows, bodies, groups.leaders, shifts, contacts_.rows(),
-                  contacts_.counts(), corner0_, corner1_, corner2_, corner3_, normals_, weights_,
-                  measures_, partials, friction_, creep_, static_cast<float>(model_.h * model_.h),
-                  has_moved, columns.count, groups.body_count(), kInstance);
 }
 
 Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {

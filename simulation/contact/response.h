@@ -9,7 +9,6 @@
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "runtime/trace/records.h"
-#include "simulation/contact/body_columns.h"
 #include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
 #include "simulation/contact/frozen.h"
@@ -53,13 +52,6 @@ public:
                      Buffer<float>& sums);
     /// What the first needs, of vertices in strips [first_strip, end_strip).
     void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
-
-    /// Adds up how far free bodies lag behind, and how contacts push them as wholes
-    /// (kernels/contact/bodies.h); the positions are those of all vertices.
-    /// bodies: [vertices], shifts, has_moved, partials: as the kernel's
-    Launch add_lags(const BodyColumns& columns, Buffer<float4>& positions, Buffer<float4>& targets,
-                    Buffer<int>& bodies, BodyGroups& groups, Buffer<float4>& shifts, int has_moved,
-                    Buffer<float4>& partials);
 
     /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.
     void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions);

@@ -34,11 +34,15 @@ void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (free_bodies_) kinds.push_back("momentum");
     if (!contact_) return;
     for (std::string& kind : contact_->kinds()) kinds.push_back(std::move(kind));
-    if (touching_) kinds.push_back(touching_->name_of_steps());
+    if (!touching_) return;
+    for (std::string& kind : touching_->kinds()) kinds.push_back(std::move(kind));
 }
 
 std::vector<RowTable*> DescentSubstep::tables() {
-    return contact_ ? contact_->tables() : std::vector<RowTable*>{};
+    if (!contact_) return {};
+    auto tables = contact_->tables();
+    if (touching_) tables.push_back(&touching_->table());
+    return tables;
 }
 
 std::vector<Launch> DescentSubstep::begin() {

@@ -37,16 +37,16 @@ std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bod
 }  // namespace
 
 TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact,
-                               int kind)
+                               int first_kind)
     : model_(model),
       bodies_(bodies),
-      contact_(contact),
-      rows_(contact.rows()),
+      pushes_(contact.rows(), bodies.columns(), contact.rubbing(), model.h),
       groups_(contact.motion().group(parts_of(model, bodies))),
       lag_count_(bodies.run_count() + bodies.most_runs()),
       partials_("touching.partials", at(kParts * bodies.column_count())),
       lags_("touching.lags", at(kParts * lag_count_)),
       body_of_("touching.body_of", at(model.vertex_count())),
+      column_bodies_("touching.column_bodies", at(bodies.column_count())),
       first_run_("touching.first_run", at(bodies.body_count())),
       counts_("touching.counts", first_run_.count()),
       masses_("touching.masses", first_run_.count()),
@@ -56,8 +56,9 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
-    steps_ = {"bodies", kind, solve(0)};
-    steps_again_ = {"bodies", kind, solve(1)};
+    collect_ = {"pushes", first_kind, {}};
+    steps_ = {"bodies", first_kind + 1, solve(0)};
+    steps_again_ = {"bodies", first_kind + 1, solve(1)};
 }
 
 void TouchingBodies::number_bodies(const Model& model) {
@@ -68,6 +69,7 @@ void TouchingBodies::number_bodies(const Model& model) {
         const FreeBodies::Run& run = bodies_.run(r);
         if (r == 0 || run.body != bodies_.run(r - 1).body) first_run_[at(++body)] = r;
         counts_[at(body)] += 1.0f;
+        std::fill_n(column_bodies_.data() + WEFT_RUN_COLUMNS * r, WEFT_RUN_COLUMNS, body);
         for (int v = run.begin; v < run.end; ++v) {
             body_of_[at(v)] = body;
             masses[at(body)] += model.masses[at(v)];
@@ -87,45 +89,53 @@ std::vector<Launch> TouchingBodies::solve(int has_moved) {
 }
 
 std::vector<const TaskBody*> TouchingBodies::bodies() const {
-    return {&steps_, &sums_again_, &steps_again_};
+    return {&collect_, &steps_, &sums_again_, &steps_again_};
 }
 
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         int kind) {
     targets_ = &targets;
-    sums_again_ = {"momentum", kind, sum_round(positions, targets, 1)};
-    return sum_round(positions, targets, 0);
+    collect_.launches = {pushes_.collect(positions, targets, body_of_, groups_)};
+    sums_again_ = {"momentum", kind, sum_round(1)};
+    return sum_round(0);
 }
 
-std::vector<Launch> TouchingBodies::sum_round(Buffer<float4>& positions, Buffer<float4>& targets,
-                                              int has_moved) {
-    return {contact_.add_lags(bodies_.columns(), positions, targets, body_of_, groups_, shifts_,
-                              has_moved, partials_),
+std::vector<Launch> TouchingBodies::sum_round(int has_moved) {
+    return {pushes_.add(column_bodies_, masses_, shifts_, has_moved, partials_),
             bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
                                 const std::vector<Region>& regions, Buffer<float4>& positions,
                                 int iteration) {
-    for (int round = 0; round < kRounds; ++round) {
+    const auto for_each = [&](auto add) {
         for (const Region& region : regions) {
-            add_sum(step, round == 0 ? body : sums_again_, region, positions, iteration);
+            if (bodies_.reach_into(region.begin, region.end)) add(region);
         }
+    };
+    for_each([&](const Region& region) { add_collection(step, region, positions, iteration); });
+    for (int round = 0; round < kRounds; ++round) {
+        const TaskBody& sums = round == 0 ? body : sums_again_;
+        for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
         add_steps(step, round == 0 ? steps_ : steps_again_, iteration);
     }
 }
 
 /// Contacts reach anywhere.
-void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
-                             Buffer<float4>& positions, int iteration) {
-    if (!bodies_.reach_into(region.begin, region.end)) return;
+void TouchingBodies::add_collection(Step& step, const Region& region, Buffer<float4>& positions,
+                                    int iteration) {
     const int first = model_.vertices().item(region.begin);
     const int last = model_.vertices().item(region.end);
+    auto task = step.add(collect_, iteration, region.strips(), region.id);
+    task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
+    pushes_.add_collect_accesses(task, region, first, last);
+}
+
+void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
+                             int iteration) {
     auto task = step.add(body, iteration, region.strips(), region.id);
-    task.reads(*targets_, first, last)
-        .reads(positions, 0, model_.vertex_count())
-        .reads(shifts_, 0, body_count() + 1);
-    rows_.add_reads(task, region.begin, region.end, first, last);
+    task.reads(shifts_, 0, body_count() + 1);
+    pushes_.add_sum_accesses(task, region);
     const auto [first_run, end_run] = bodies_.runs_in(region.begin, region.end);
     for (int part = 0; part < kParts; ++part) {
         task.updates(lags_, part * lag_count_ + first_run, part * lag_count_ + end_run);

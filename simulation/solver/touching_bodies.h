@@ -2,18 +2,20 @@
 
 #include <vector>
 
+#include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/solver/free_bodies.h"
 
 namespace weft {
 
 /// Free bodies in scenes with contact: they move as wholes as far as their contacts let them
-/// (kernels/contact/bodies.h). Sums as FreeBodies', and a task of one device that makes steps of
-/// them.
+/// (kernels/contact/bodies.h). What pushes them is collected; then there are sums as FreeBodies',
+/// and a task of one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
-    /// kind: of the task. All others must outlive this.
-    TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact, int kind);
+    /// first_kind: of the tasks. All others must outlive this.
+    TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact,
+                   int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets, int kind);
@@ -26,13 +28,13 @@ public:
 
     /// What there is besides the sums of the first round.
     std::vector<const TaskBody*> bodies() const;
-    const std::string& name_of_steps() const { return steps_.name; }
+    std::vector<std::string> kinds() const { return {collect_.name, steps_.name}; }
+    RowTable& table() { return pushes_.table(); }
 
 private:
-    std::vector<Launch> sum_round(Buffer<float4>& positions, Buffer<float4>& targets,
-                                  int has_moved);
-    void add_sum(Step& step, const TaskBody& body, const Region& region, Buffer<float4>& positions,
-                 int iteration);
+    std::vector<Launch> sum_round(int has_moved);
+    void add_collection(Step& step, const Region& region, Buffer<float4>& positions, int iteration);
+    void add_sum(Step& step, const TaskBody& body, const Region& region, int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);
     std::vector<Launch> solve(int has_moved);
@@ -40,14 +42,14 @@ private:
 
     const Model& model_;
     FreeBodies& bodies_;
-    ContactResponse& contact_;
-    ContactRows rows_;
+    BodyPushes pushes_;
     BodyGroups& groups_;
     int lag_count_;
     // See the kernels.
     Buffer<float4> partials_;      ///< [parts * columns]
     Buffer<float4> lags_;          ///< [parts * lag_count]
     Buffer<int> body_of_;          ///< [vertices]
+    Buffer<int> column_bodies_;    ///< [columns]
     Buffer<int> first_run_;        ///< [bodies]
     Buffer<float> counts_;         ///< [bodies]
     Buffer<float> masses_;         ///< [bodies]
@@ -56,7 +58,7 @@ private:
     Buffer<float4> shifts_;        ///< [bodies + 1]
     Buffer<int> begin_;            ///< [strips + 1] all bodies are items of strip 0
     Buffer<float4>* targets_ = nullptr;
-    TaskBody steps_;
+    TaskBody collect_, steps_;
     TaskBody sums_again_, steps_again_;  ///< of the rounds behind the first one
 };
 

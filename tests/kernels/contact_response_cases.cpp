@@ -326,30 +326,72 @@ void fill_case(KernelCase& c) {
                       edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
 }
 
-void lags_case(KernelCase& c) {
-    constexpr int kRows = 3;
-    const int entries = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
-    auto& positions = add_points(c, "positions", c.items);
-    auto& targets = add_points(c, "targets", c.items);
-    auto& members = add_indices(c, "members", entries, c.items);
-    auto& shares = c.add<float>("shares", entries);
-    for (float& share : shares.span()) share = c.random.real(0.0f, 1.0f);
-    auto& column_rows = c.add<int>("column_rows", 2 * c.items);
-    for (int i = 0; i < c.items; ++i) {
-        column_rows[at(2 * i)] = i;
-        column_rows[at(2 * i + 1)] = kRows;
+/// Where columns begin, and what is summed in them.
+struct Columns {
+    static constexpr int kRows = 3;
+    Buffer<int>&members, &rows;
+    Buffer<float>& shares;
+
+    explicit Columns(KernelCase& c)
+        : members(add_indices(c, "members", entries(c), c.items)),
+          rows(c.add<int>("column_rows", 2 * c.items)),
+          shares(c.add<float>("shares", entries(c))) {
+        for (int i = 0; i < c.items; ++i) {
+            rows[at(2 * i)] = i;
+            rows[at(2 * i + 1)] = kRows;
+        }
+        for (float& share : shares.span()) share = std::max(c.random.real(-0.2f, 1.0f), 0.0f);
     }
+    static int entries(KernelCase& c) { return c.items + (kRows - 1) * WEFT_RUN_COLUMNS; }
+};
+
+/// What a body has of contacts, as collect_pushes leaves it.
+struct Pushes {
+    Rows rows;
+    Buffer<int>& codes;
+    Buffer<float4>&sides, &slips, &forces, &standing;
+
+    explicit Pushes(KernelCase& c)
+        : rows(c, "pushes", c.items, kRoom),
+          codes(add_indices(c, "codes", rows.entries, 2 * (kBodies + 1))),
+          sides(add_normals(c, "sides", rows.entries, -kRange, 2.0f * kRange)),
+          slips(add_points(c, "slips", rows.entries)),
+          forces(c.add<float4>("forces", rows.entries)),
+          standing(add_points(c, "standing", c.items)) {
+        for (float4& f : forces.span()) f = {1.0f, 2.0f, c.random.real(1.0f, 1e4f), kRange};
+    }
+};
+
+void collect_case(KernelCase& c) {
+    auto& targets = add_points(c, "targets", c.items);
+    Columns columns(c);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     auto& leaders = add_indices(c, "leaders", kSubsteps * kBodies, kBodies);
+    OwnContacts contacts(c);
+    for (float4& m : contacts.measures.span()) m.x += 0.5f;
+    Pushes pushes(c);
+    auto& needs = add_indices(c, "push_needs", c.items, 9);
+    c.launch =
+        launch(kernels::collect_pushes, c.segments, contacts.positions, targets, columns.members,
+               columns.shares, columns.rows, bodies, leaders, contacts.rows.rows,
+               contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+               contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+               pushes.rows.rows, pushes.rows.counts, needs, pushes.codes, pushes.sides,
+               pushes.slips, pushes.forces, pushes.standing, c.items, kBodies, kInstance);
+}
+
+void lags_case(KernelCase& c) {
+    auto& bodies = add_indices(c, "column_bodies", c.items, kBodies);
+    auto& masses = c.add<float>("masses", kBodies);
+    for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
     auto& shifts = add_points(c, "shifts", kBodies + 1);
-    Contacts contacts(c);
+    Pushes pushes(c);
     auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
-    c.launch = launch(kernels::add_pushed_lags, c.segments, positions, targets, members, shares,
-                      column_rows, bodies, leaders, shifts, contacts.rows.rows,
-                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
-                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
-                      partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-                      c.random.integer(0, 1), c.items, kBodies, kInstance);
+    c.launch =
+        launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses, shifts,
+               pushes.rows.rows, pushes.rows.counts, pushes.codes, pushes.sides, pushes.slips,
+               pushes.forces, partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
+               c.random.integer(0, 1), c.items);
 }
 
 void bodies_case(KernelCase& c) {
@@ -411,8 +453,9 @@ const bool added =
     add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
     add_case("truncate_contacts", truncate_case) && add_case("gather_contacts", gather_case) &&
     add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case) &&
-    add_case("add_pushed_lags", lags_case) && add_case("solve_bodies", bodies_case) &&
-    add_case("solve_groups", groups_case) && add_case("add_groups", add_groups_case);
+    add_case("collect_pushes", collect_case) && add_case("add_pushed_lags", lags_case) &&
+    add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
+    add_case("add_groups", add_groups_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&

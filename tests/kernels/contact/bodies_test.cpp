@@ -36,20 +36,16 @@ TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
 }
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
-    Buffer<float4> positions("positions", 1), targets("targets", 1), shifts("shifts", 2);
-    positions[0].w = 1.0f;
-    targets[0] = {0.25f, 0.0f, 0.0f, 0.0f};
-    Buffer<int> members("members", 1), columns("column_rows", 2), bodies("bodies", 1),
-        leaders("leaders", 1), rows("rows", 2), counts("counts", 1), corner("corners", 1);
-    Buffer<float> shares("shares", 1);
-    shares[0] = 1.0f;
-    columns[1] = 1;
+    Buffer<float4> standing("standing", 1), shifts("shifts", 2);
+    standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
+    Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
+    Buffer<float> masses("masses", 1);
+    masses[0] = 1.0f;
     Buffer<float4> entries("entries", 1), partials("partials", WEFT_BODY_PARTS);
     const auto lag_of_round = [&](int has_moved) {
-        const Launch launched =
-            launch(kernels::add_pushed_lags, Segments{}, positions, targets, members, shares,
-                   columns, bodies, leaders, shifts, rows, counts, corner, corner, corner, corner,
-                   entries, entries, entries, partials, 0.0f, 1.0f, 1e-4f, has_moved, 1, 1, 0);
+        const Launch launched = launch(kernels::add_pushed_lags, Segments{}, standing, bodies,
+                                       masses, shifts, rows, counts, codes, entries, entries,
+                                       entries, partials, 0.0f, 1.0f, 1e-4f, has_moved, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[0].x;
     };
@@ -57,6 +53,99 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     EXPECT_EQ(lag_of_round(0), 0.25f);
     shifts[0] = {0.125f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(lag_of_round(1), 0.125f);
+}
+
+/// Two edges that cross, of a body each.
+struct CrossedEdges {
+    static constexpr int kVertices = 4, kRoom = 4;
+    Buffer<float4> positions{"positions", kVertices}, targets{"targets", kVertices};
+    Buffer<int> members{"members", 2 * WEFT_RUN_COLUMNS}, columns{"column_rows", 4},
+        bodies{"bodies", kVertices}, leaders{"leaders", 2};
+    Buffer<float> shares{"shares", 2 * WEFT_RUN_COLUMNS};
+    Buffer<int> rows{"rows", 2 * kVertices}, counts{"counts", kVertices};
+    Buffer<int> corner0{"corner0", kVertices}, corner1{"corner1", kVertices},
+        corner2{"corner2", kVertices}, corner3{"corner3", kVertices};
+    Buffer<float4> normals{"normals", kVertices}, weights{"weights", kVertices},
+        measures{"measures", kVertices};
+    Buffer<int> push_rows{"push_rows", 4}, push_counts{"push_counts", 2},
+        push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_CONTACT_STRIDE*kRoom};
+    Buffer<float4> sides{"sides", codes.count()}, slips{"slips", codes.count()},
+        forces{"forces", codes.count()}, standing{"standing", 2};
+
+    /// The first edge weighs 1/4 and 3/4, the second one 1/2 and 1/2; 0.01 m apart.
+    CrossedEdges() {
+        const float quarters[4] = {0.25f, 0.75f, -0.5f, -0.5f};
+        positions[0] = {-0.75f, 0.01f, 0.0f, 1.0f};
+        positions[1] = {0.25f, 0.01f, 0.0f, 1.0f};
+        positions[2] = {0.0f, 0.0f, -0.5f, 1.0f};
+        positions[3] = {0.0f, 0.0f, 0.5f, 1.0f};
+        for (int v = 0; v < kVertices; ++v) {
+            const auto e = static_cast<std::size_t>(v);
+            const float side = v < 2 ? 1.0f : -1.0f;
+            const float own = side * quarters[v];
+            rows[e] = v;
+            rows[e + kVertices] = 1;
+            counts[e] = 1;
+            corner1[e] = 1;
+            corner2[e] = 2;
+            corner3[e] = 3;
+            bodies[e] = v / 2;
+            normals[e] = {0.0f, side, 0.0f, 0.01f};
+            weights[e] = {side * quarters[0], side * quarters[1], side * quarters[2],
+                          side * quarters[3]};
+            measures[e] = {own, 2.0f * own, 100.0f, 0.02f};
+        }
+        leaders[1] = 1;
+        for (std::size_t body = 0; body < 2; ++body) {
+            columns[2 * body] = static_cast<int>(body);
+            columns[2 * body + 1] = 2;
+            push_rows[body] = static_cast<int>(body);
+            push_rows[body + 2] = kRoom;
+            for (std::size_t k = 0; k < 2; ++k) {
+                members[body + WEFT_RUN_COLUMNS * k] = static_cast<int>(2 * body + k);
+                shares[body + WEFT_RUN_COLUMNS * k] = 0.5f;
+            }
+        }
+    }
+
+    void collect() {
+        const Launch launched =
+            launch(kernels::collect_pushes, Segments{}, positions, targets, members, shares,
+                   columns, bodies, leaders, rows, counts, corner0, corner1, corner2, corner3,
+                   normals, weights, measures, push_rows, push_counts, push_needs, codes, sides,
+                   slips, forces, standing, 2, 2, 0);
+        run_on_host(launched, launched.kernel->scalar, 0, 2);
+    }
+};
+
+TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
+    CrossedEdges edges;
+    edges.collect();
+    for (std::size_t body = 0; body < 2; ++body) {
+        ASSERT_EQ(edges.push_counts[body], 1);
+        EXPECT_EQ(edges.push_needs[body], 1);
+        EXPECT_EQ(edges.codes[body], 2 * (1 - static_cast<int>(body)) + 1);
+        EXPECT_NEAR(edges.sides[body].w, 0.01f, 1e-7f);
+        EXPECT_EQ(edges.forces[body].x, 1.0f);
+        EXPECT_EQ(edges.forces[body].y, 2.0f);
+        EXPECT_EQ(edges.standing[body].w, 1.0f);
+    }
+}
+
+TEST(BodiesAsWholes, WhatIsOfTheSameGroupIsNotOutside) {
+    CrossedEdges edges;
+    edges.leaders[1] = 0;
+    edges.collect();
+    EXPECT_EQ(edges.codes[0], 2);
+    EXPECT_EQ(edges.codes[1], 0);
+}
+
+TEST(BodiesAsWholes, ContactsOfABodyWithItselfDoNotPushIt) {
+    CrossedEdges edges;
+    edges.bodies[2] = edges.bodies[3] = 0;
+    edges.collect();
+    EXPECT_EQ(edges.push_counts[0], 0);
+    EXPECT_EQ(edges.push_counts[1], 0);
 }
 
 }  // namespace

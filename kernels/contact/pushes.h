@@ -1,0 +1,142 @@
+#ifndef WEFT_KERNELS_CONTACT_PUSHES_H
+#define WEFT_KERNELS_CONTACT_PUSHES_H
+
+// What pushes a free body as a whole. Rows of contacts are made for vertices: each has its own
+// entry, which names four corners anywhere. The rounds of bodies.h see no single vertices, and walk
+// all contacts of a body a dozen times. So they are collected once per substep: a contact once for
+// the whole side that the body has of it, for the column in which the first vertex of that side is
+// summed, with what it says at the positions at hand. How far bodies have gone since is all that a
+// round has to know besides.
+
+#include "kernels/contact/rows.h"
+#include "kernels/descent/free_bodies.h"
+
+WEFT_KERNELS_BEGIN
+
+/// The one of a contact's vertices on this side that stands for all of them: the first one that
+/// has a weight.
+WEFT_INLINE whole first_of_side(real4 w, whole c0, whole c1, whole c2, whole c3) {
+    const real zero = splat(0.0f);
+    return w.x > zero ? c0 : (w.y > zero ? c1 : (w.z > zero ? c2 : c3));
+}
+
+/// What the vertices on this side weigh together.
+WEFT_INLINE real weight_of_side(real4 w) {
+    const real zero = splat(0.0f);
+    return (larger(w.x, zero) + larger(w.y, zero)) + (larger(w.z, zero) + larger(w.w, zero));
+}
+
+/// For each column of a free body's vertices the contacts that they have with others.
+/// positions    [vertices] xyz [m], where contacts are seen
+/// targets      [vertices] xyz: x~ [m]
+/// members, shares, column_rows  of the columns: see add_lags
+/// bodies       [vertices] which of the free bodies each belongs to; `body_count`: to none
+/// leaders      [substeps * bodies] the first one of each body's group
+/// rows, counts, corner0 to corner3, normals, weights, measures  as in gather_contacts
+/// push_rows, push_counts, push_needs   of the columns, written; see runtime/row_table.h
+/// codes        [entries] written: 2 * the body on the other side, and one more if that is not of
+///              this body's group
+/// sides        [entries] written: n; the gap [m]
+/// slips        [entries] written: of this side along the other one [m]; the gap where inertia
+///              leads [m]
+/// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
+/// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
+WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* bodies,
+            WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+            WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
+            WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
+            WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* standing,
+            int column_count, int body_count, int instance) {
+    const real zero = splat(0.0f);
+    const whole none = splat_whole(0);
+    const whole last_body = splat_whole(body_count - 1);
+    WEFT_GLOBAL const int* group_leaders = leaders + instance * body_count;
+    const whole push_start = load_whole(push_rows, i);
+    const whole room = load_whole(push_rows, column(i, column_count, 1));
+    whole found = none;
+    real3 lag = make3(zero, zero, zero);
+    real part = zero;
+    const int length = column_rows[2 * i.first + 1];
+    for (int k = 0; k < length; ++k) {
+        const item member = {column_rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
+        const whole vertex = load_whole(members, member);
+        const real share = load(shares, member);
+        const real3 own_lag = subtract(xyz(gather4(targets, address(vertex))),
+                                       xyz(gather4(positions, address(vertex))));
+        lag = add_scaled(lag, own_lag, share);
+        part = part + share;
+
+        const whole own_body = gather_whole(bodies, address(vertex));
+        const whole start = gather_whole(rows, address(vertex));
+        const whole listed = gather_whole(counts, address(vertex));
+        const whole count = share > zero ? listed : none;
+        const int longest = largest_whole(count);
+        for (int n = 0; n < longest; ++n) {
+            const mask on = splat_whole(n) < count;
+            const integer entry =
+                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * n) : start);
+            const whole c0 = gather_whole(corner0, entry);
+            const whole c3 = gather_whole(corner3, entry);
+            const real4 w = gather4(weights, entry);
+            // The first vertex and the last one are never on one side.
+            const whole one_side = gather_whole(bodies, address(c0));
+            const whole other_side = gather_whole(bodies, address(c3));
+            const whole first = first_of_side(w, c0, gather_whole(corner1, entry),
+                                              gather_whole(corner2, entry), c3);
+            const mask counts_here = both(both(on, one_side != other_side), first == vertex);
+            if (any_item(counts_here)) {
+                const contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3,
+                                                     normals, weights, measures, entry);
+                const whole opposite = one_side == own_body ? other_side : one_side;
+                const whole own_leader =
+                    gather_whole(group_leaders, address(smaller_whole(own_body, last_body)));
+                const whole leader =
+                    gather_whole(group_leaders, address(smaller_whole(opposite, last_body)));
+                const mask is_free = opposite < splat_whole(body_count);
+                const whole outside = both(is_free, leader == own_leader) ? none : splat_whole(1);
+                const real own = weight_of_side(w);
+                const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
+                const mask fits = both(counts_here, found < room);
+                const integer place = address(push_start + found * WEFT_CONTACT_STRIDE);
+                scatter_whole_where(fits, codes, place, opposite + opposite + outside);
+                scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
+                scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
+                scatter4_where(fits, forces, place, force);
+                found = counts_here ? found + splat_whole(1) : found;
+            }
+        }
+    }
+    store4(standing, i, with_w(lag, part));
+    store_whole(push_counts, i, smaller_whole(found, room));
+    store_whole(push_needs, i,
+                instance == 0 ? found : larger_whole(found, load_whole(push_needs, i)));
+}
+
+/// One entry of a column's row: a contact of the whole side.
+WEFT_INLINE contact_entry load_push(WEFT_GLOBAL const float4* sides,
+                                    WEFT_GLOBAL const float4* slips,
+                                    WEFT_GLOBAL const float4* forces, integer entry) {
+    const real4 side = gather4(sides, entry);
+    const real4 slip = gather4(slips, entry);
+    const real4 force = gather4(forces, entry);
+    contact_entry c;
+    c.normal = xyz(side);
+    c.gap = side.w;
+    c.slip = xyz(slip);
+    c.ahead = slip.w;
+    c.own = force.x;
+    c.spread = force.y;
+    c.stiffness = force.z;
+    c.range = force.w;
+    return c;
+}
+
+WEFT_KERNELS_END
+
+#endif

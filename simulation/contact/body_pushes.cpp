@@ -1,0 +1,69 @@
+#include "simulation/contact/body_pushes.h"
+
+#include "kernels/contact/bodies.h"
+
+namespace weft {
+
+namespace {
+
+constexpr int kFirstRoom = 16;  ///< of a row
+
+}  // namespace
+
+BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
+                       double h)
+    : contacts_(contacts),
+      columns_(columns),
+      friction_(static_cast<float>(rubbing.friction)),
+      creep_(static_cast<float>(rubbing.creep)),
+      h2_(static_cast<float>(h * h)),
+      table_("touching.pushes", columns.by_strip, kFirstRoom),
+      codes_(table_.add_column<int>("codes")),
+      sides_(table_.add_column<float4>("sides")),
+      slips_(table_.add_column<float4>("slips")),
+      forces_(table_.add_column<float4>("forces")),
+      standing_("touching.standing", static_cast<std::size_t>(columns.count)) {}
+
+Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
+                           BodyGroups& groups) {
+    return launch(kernels::collect_pushes, columns_.by_strip, positions, targets, columns_.members,
+                  columns_.shares, columns_.rows, bodies, groups.leaders, contacts_.table.rows(),
+                  contacts_.table.counts(), contacts_.corner0, contacts_.corner1, contacts_.corner2,
+                  contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
+                  table_.rows(), table_.counts(), table_.needs(), codes_, sides_, slips_, forces_,
+                  standing_, columns_.count, groups.body_count(), kInstance);
+}
+
+void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
+                                      int last) {
+    contacts_.add_reads(task, region.begin, region.end, first, last);
+    const int column = columns_.by_strip.item(region.begin);
+    const int end = columns_.by_strip.item(region.end);
+    task.updates(table_.counts(), column, end)
+        .updates(table_.needs(), column, end)
+        .updates(standing_, column, end)
+        .updates(codes_, table_.entries());
+    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_}) {
+        task.updates(*entries, table_.entries());
+    }
+}
+
+Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& shifts,
+                       int has_moved, Buffer<float4>& partials) {
+    return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
+                  shifts, table_.rows(), table_.counts(), codes_, sides_, slips_, forces_, partials,
+                  friction_, creep_, h2_, has_moved, columns_.count);
+}
+
+void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {
+    const int column = columns_.by_strip.item(region.begin);
+    const int end = columns_.by_strip.item(region.end);
+    task.reads(table_.counts(), column, end)
+        .reads(standing_, column, end)
+        .reads(codes_, table_.entries());
+    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_}) {
+        task.reads(*entries, table_.entries());
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "runtime/planning/regions.h"
+#include "runtime/row_table.h"
+#include "runtime/step.h"
+#include "simulation/contact/body_columns.h"
+#include "simulation/contact/body_groups.h"
+#include "simulation/contact/frozen.h"
+#include "simulation/contact/rows.h"
+
+namespace weft {
+
+/// The contacts of free bodies with others, once per side, as their momentum wants them: a row per
+/// column (kernels/contact/pushes.h).
+class BodyPushes {
+public:
+    /// contacts, columns: must outlive this. h: the substep [s]
+    BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing, double h);
+
+    /// Collects them at these positions, those of all vertices. bodies: [vertices], as the kernel's
+    Launch collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
+                   BodyGroups& groups);
+    /// What that needs of a region, besides the positions and the targets.
+    void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
+
+    /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
+    /// column_bodies, masses, shifts, has_moved, partials: as the kernel's
+    Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& shifts,
+               int has_moved, Buffer<float4>& partials);
+    /// What that needs of a region, besides the shifts.
+    void add_sum_accesses(Step::Adding& task, const Region& region);
+
+    RowTable& table() { return table_; }
+
+private:
+    ContactRows contacts_;
+    BodyColumns columns_;
+    float friction_, creep_, h2_;
+    RowTable table_;
+    Buffer<int>& codes_;
+    Buffer<float4>&sides_, &slips_, &forces_;
+    Buffer<float4> standing_;  ///< [columns]
+};
+
+}  // namespace weft
