@@ -10,7 +10,8 @@ import tempfile
 import report
 from rounds import Rounds
 from sheet import Sheet
-from systems import ALL, named
+from stack import Stack
+from systems import ALL, STACKED, named
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -20,10 +21,12 @@ of the machine's speed meets all alike; nobody else runs meanwhile. A package th
 is named, and left out. Exit codes: 0 done; 1 a system failed, or what it computed is no hanging
 cloth; 2 the request was wrong.
 
-systems: {systems}
+systems: {systems};
+with --stack: {stacked}
 
-Example:
-  ./dev peers --resolution 200 --rounds 3 --only weft,newton-vbd-bend"""
+Examples:
+  ./dev peers --resolution 200 --rounds 3 --only weft,newton-vbd-bend
+  ./dev peers --stack 5 --resolution 20"""
 
 
 class Parser(argparse.ArgumentParser):
@@ -54,32 +57,52 @@ def at_least(lowest):
 def arguments():
     parser = Parser(prog="./dev peers", description=__doc__.split(": ", 1)[1],
                     formatter_class=argparse.RawDescriptionHelpFormatter,
-                    epilog=EPILOG.format(systems=", ".join(d.name for d in ALL)))
-    parser.add_argument("--resolution", type=at_least(4), default=100, metavar="N",
-                        help="N x N particles (100)")
+                    epilog=EPILOG.format(systems=names(ALL), stacked=names(STACKED)))
+    parser.add_argument("--stack", type=at_least(2), metavar="N",
+                        help="N sheets in contact, the lowest held by its corners, where else one "
+                             "sheet hangs by two; crossings are counted")
+    parser.add_argument("--resolution", type=at_least(4), metavar="N",
+                        help="N x N particles (100; in a stack 30)")
     parser.add_argument("--substeps", type=at_least(1), default=10, metavar="N",
                         help="steps per frame of 1/60 s (10)")
     parser.add_argument("--iterations", type=at_least(1), default=8, metavar="N",
                         help="iterations per substep (8)")
-    parser.add_argument("--rounds", type=at_least(1), default=7, metavar="N",
-                        help="turns of each system (7)")
-    parser.add_argument("--frames", type=at_least(1), default=3, metavar="N",
-                        help="frames per turn, of which the median counts (3)")
+    parser.add_argument("--rounds", type=at_least(1), metavar="N",
+                        help="turns of each system (7; of a stack 1)")
+    parser.add_argument("--frames", type=at_least(1), metavar="N",
+                        help="frames per turn, of which the median counts (3; of a stack 15)")
     parser.add_argument("--only", default="", metavar="NAMES",
                         help="systems or families of them (weft, newton, pypbd), with commas")
     parser.add_argument("--weft", type=pathlib.Path, metavar="PATH",
                         default=PROJECT / "build/release/bin/weft", help="the program")
     parser.add_argument("--json", action="store_true", help="print one JSON document")
     parser.add_argument("--quiet", action="store_true", help="say nothing but results and errors")
-    return parser.parse_args()
+    return with_defaults(parser.parse_args())
 
 
-def chosen_systems(only):
+def with_defaults(options):
+    """Frames of a stack differ, as contacts come: one long turn says more of them than many."""
+    defaults = (30, 1, 15) if options.stack else (100, 7, 3)
+    for name, value in zip(("resolution", "rounds", "frames"), defaults):
+        if getattr(options, name) is None:
+            setattr(options, name, value)
+    return options
+
+
+def names(descriptions):
+    return ", ".join(description.name for description in descriptions)
+
+
+def chosen_systems(only, those):
     try:
-        return named([name for name in only.split(",") if name])
+        return named([name for name in only.split(",") if name], those)
     except KeyError as unknown:
-        fail(2, f"--only: there is no system {unknown}; there are: "
-             + ", ".join(description.name for description in ALL))
+        fail(2, f"--only: there is no system {unknown}; there are: {names(those)}")
+
+
+def chosen_problem(options):
+    size = (options.resolution, options.substeps, options.iterations)
+    return Stack(*size, options.stack) if options.stack else Sheet(*size)
 
 
 def core_to_use():
@@ -89,10 +112,10 @@ def core_to_use():
 
 def main():
     options = arguments()
-    systems = chosen_systems(options.only)
+    systems = chosen_systems(options.only, STACKED if options.stack else ALL)
     if not options.weft.is_file():
         fail(2, f"--weft: there is no program {options.weft}; `./dev weft --version` builds it")
-    sheet = Sheet(options.resolution, options.substeps, options.iterations)
+    sheet = chosen_problem(options)
     core = core_to_use()
     with tempfile.TemporaryFile() as log:
         result = Rounds((lambda text: None) if options.quiet else say)

@@ -21,8 +21,9 @@ def builder():
 
 
 def add_particles(model, sheet):
-    count = sheet.resolution**2
-    model.add_particles([warp.vec3(*p) for p in sheet.positions()], [warp.vec3()] * count,
+    positions = sheet.positions()
+    count = len(positions)
+    model.add_particles([warp.vec3(*p) for p in positions], [warp.vec3()] * count,
                         [sheet.particle_mass] * count, [0.0] * count)
 
 

@@ -1,5 +1,6 @@
 """The results, as rows for JSON and as a table."""
 
+import dataclasses
 import os
 import platform
 import statistics
@@ -35,8 +36,7 @@ def _row(measured, all_measured):
 
 def as_json(result, sheet, rounds, frames, core):
     return {
-        "sheet": {"resolution": sheet.resolution, "substeps": sheet.substeps,
-                  "iterations": sheet.iterations},
+        "sheet": dataclasses.asdict(sheet),
         "rounds": rounds,
         "frames_per_turn": frames,
         "machine": {"processor": processor(), "core": core, "load": _load()},
@@ -48,11 +48,14 @@ def as_json(result, sheet, rounds, frames, core):
 
 def as_text(document):
     sheet = document["sheet"]
-    head = (f"{sheet['resolution']} x {sheet['resolution']} particles, {sheet['substeps']} substeps"
-            f" x {sheet['iterations']} iterations per frame, one core of {_machine(document)}; "
+    stack = f"stack of {sheet['sheets']} sheets of " if "sheets" in sheet else ""
+    head = (f"{stack}{sheet['resolution']} x {sheet['resolution']} particles, "
+            f"{sheet['substeps']} substeps x {sheet['iterations']} iterations per frame, "
+            f"one core of {_machine(document)}; "
             f"rounds: {document['rounds']}, of {document['frames_per_turn']} frames")
     lines = [head, "", _line("system", "ms/frame", "lowest..highest", "ns per", "", "x Weft",
-                             "lowest..highest", "mean y", "longest edge", "what")]
+                             "lowest..highest", "mean y", "longest edge", "crossings",
+                             "what")]
     for row in document["systems"]:
         ratio, spread = "-", ""
         if "ratio" in row:
@@ -62,17 +65,18 @@ def as_text(document):
             row["system"], f"{row['ms_per_frame']:.2f}",
             f"{row['ms_lowest']:.2f}..{row['ms_highest']:.2f}", f"{row['ns_per_unit']:.1f}",
             row["unit"], ratio, spread, _number(row["mean_height"], 3),
-            _number(row["longest_edge"], 2), row["what"]))
+            _number(row["longest_edge"], 2), _number(row["crossings"], 0), row["what"]))
     lines += ["", "x Weft: ns per projection or vertex update over that of Weft's system with the "
               "same method, with", "bending if the peer has it, round by round. mean y [m] and "
-              "longest edge (of its length at the", "start) are of the last frame. Systems differ "
-              "in their energies: see docs/measurements.md."]
+              "longest edge (of its length at the", "start) are of the last frame, as are "
+              "crossings: pairs of triangles, in a stack. Systems differ in their", "energies: see "
+              "docs/measurements.md."]
     return "\n".join(lines)
 
 
 def _line(*cells):
-    widths = [23, 9, 17, 8, 13, 7, 15, 7, 12, 0]
-    left = {0, 4, 9}
+    widths = [23, 9, 17, 8, 13, 7, 15, 7, 12, 9, 0]
+    left = {0, 4, 10}
     return "  ".join(f"{cell:<{width}}" if column in left else f"{cell:>{width}}"
                      for column, (cell, width) in enumerate(zip(cells, widths))).rstrip()
 

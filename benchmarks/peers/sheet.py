@@ -60,15 +60,42 @@ class Sheet:
 
     def edge_count(self):
         """Edges of the triangles, each a spring."""
-        cells = self.resolution - 1
-        return 2 * cells * self.resolution + cells**2
+        return len(self.edges())
 
     def hinge_count(self):
         """Edges inside the sheet, with a triangle on both sides."""
-        return self.edge_count() - 4 * (self.resolution - 1)
+        return 3 * len(self.triangles()) - self.edge_count()
 
     def free_vertices(self):
-        return self.resolution**2 - len(self.pins)
+        return len(self.positions()) - len(self.pins)
+
+    def free_fall(self, frames):
+        """[m]; symplectic Euler falls a little further than the parabola."""
+        time = frames * FRAME
+        return 0.5 * GRAVITY * time * (time + self.substep)
+
+    def complaint(self, positions, frames, longest_edge):
+        """Why these are no positions of such a sheet after so many frames; empty if they may be."""
+        mean_height = positions[:, 1].mean()
+        free_fall = self.free_fall(frames)
+        # After half a second the sheet has swung down, and may swing up again.
+        least = 0.2 * min(free_fall, 0.25)
+        if mean_height > -least:
+            time = frames * FRAME
+            return f"its mean height is {mean_height:.3g} m after {time:.2f} s: it has not fallen"
+        if mean_height < -1.05 * free_fall - 1.0e-3:
+            return f"its mean height is {mean_height:.3g} m: it fell faster than a stone"
+        return self.complaint_of_edges(frames, longest_edge)
+
+    def complaint_of_edges(self, frames, longest_edge):
+        """If nothing but pins held it, all the rest would fall, and stretch the edges there."""
+        if longest_edge > max(2.0, 0.5 * self.free_fall(frames) * (self.resolution - 1)):
+            return f"an edge is {longest_edge:.3g} times as long as at the start"
+        return ""
+
+    def crossings(self, positions):
+        """How often surfaces cross each other; None where nobody looks."""
+        return None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,6 +105,7 @@ class Shape:
     mean_height: float | None  # [m], 0 at the start
     longest_edge: float | None  # over its length at the start
     complaint: str  # why this is no hanging cloth; empty if it may be one
+    crossings: int | None = None  # see Sheet
 
 
 def look_at(sheet, positions, frames):
@@ -95,26 +123,13 @@ def look_at(sheet, positions, frames):
     def lengths(x):
         return numpy.linalg.norm(x[edges[:, 0]] - x[edges[:, 1]], axis=1)
 
-    mean_height = positions[:, 1].mean()
+    mean_height = (positions - start)[:, 1].mean()
     longest_edge = (lengths(positions) / lengths(start)).max()
     moved = numpy.abs(positions[sheet.pins] - start[sheet.pins]).max()
     return Shape(mean_height, longest_edge,
-                 _complaint(sheet, frames, mean_height, longest_edge, moved))
+                 _complaint_of_pins(moved) or sheet.complaint(positions, frames, longest_edge),
+                 sheet.crossings(positions))
 
 
-def _complaint(sheet, frames, mean_height, longest_edge, moved_pins):
-    # Symplectic Euler falls a little further than the parabola.
-    time = frames * FRAME
-    free_fall = 0.5 * GRAVITY * time * (time + sheet.substep)
-    # After half a second the sheet has swung down, and may swing up again.
-    least = 0.2 * min(free_fall, 0.25)
-    if moved_pins > 1.0e-4:
-        return f"a pinned corner has moved by {moved_pins:.3g} m"
-    if mean_height > -least:
-        return f"its mean height is {mean_height:.3g} m after {time:.2f} s: it has not fallen"
-    if mean_height < -1.05 * free_fall - 1.0e-3:
-        return f"its mean height is {mean_height:.3g} m: it fell faster than a stone"
-    # Held by nothing but its pins, all the rest would fall, and stretch the edges at the pins.
-    if longest_edge > max(2.0, 0.5 * free_fall * (sheet.resolution - 1)):
-        return f"an edge is {longest_edge:.3g} times as long as at the start"
-    return ""
+def _complaint_of_pins(moved):
+    return f"a pinned corner has moved by {moved:.3g} m" if moved > 1.0e-4 else ""

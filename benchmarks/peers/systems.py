@@ -76,14 +76,22 @@ ALL = [
     _pypbd("pypbd-xpbd-bend", True, "springs, isometric bending; float64"),
 ]
 
+# Those that do stacks, with contact.
+STACKED = [
+    Description("weft-vbd-stack", "weft_stack_system", {}, VERTEX_UPDATE, "weft-vbd-stack",
+                "springs, quadratic bending; contact"),
+    Description("newton-vbd-stack", "newton_stack_system", {}, VERTEX_UPDATE, "weft-vbd-stack",
+                "membrane, dihedral bending; self-contact"),
+]
 
-def named(names):
-    """The systems of these names or families (`newton`), in the order of ALL; all if none.
+
+def named(names, those=ALL):
+    """Those of these names or families (`newton`), in their order; all if none.
 
     Throws KeyError with a name that is none.
     """
-    known = {d.name for d in ALL} | {d.family for d in ALL}
+    known = {d.name for d in those} | {d.family for d in those}
     for name in names:
         if name not in known:
             raise KeyError(name)
-    return [d for d in ALL if not names or d.name in names or d.family in names]
+    return [d for d in those if not names or d.name in names or d.family in names]

@@ -14,7 +14,7 @@ import h5py
 
 import sheet as problem
 
-SCENE = """
+HEAD = """
 [scene]
 name = "sheet"
 frames = {frames}
@@ -26,6 +26,9 @@ gravity = [0.0, {gravity}, 0.0]
 method = "{method}"
 iterations = {sheet.iterations}
 
+"""
+
+CLOTH = """
 [[cloth]]
 name = "sheet"
 grid = {{ size = [1.0, 1.0], resolution = [{sheet.resolution}, {sheet.resolution}] }}
@@ -47,14 +50,17 @@ class Weft:
         self._folder = tempfile.TemporaryDirectory(prefix="weft-peers-")
         self._frames = problem.WARM_UP  # of the positions; Weft needs none itself
         self._scene = pathlib.Path(self._folder.name) / "sheet.toml"
-        self._scene.write_text(SCENE.format(
-            sheet=sheet, frames=1, dt=problem.FRAME, gravity=-problem.GRAVITY, method=method,
-            density=problem.DENSITY, stretch=problem.STRETCH,
-            bend=f"bend = {{ stiffness = {problem.BEND} }}" if bend else ""))
+        self._scene.write_text(self.scene(sheet, method, bend))
         self.version = self._call("--version").strip().removeprefix("weft ")
         elements = sheet.edge_count() + (sheet.hinge_count() if bend else 0)
         units = elements if method == "xpbd" else sheet.free_vertices()
         self.units_per_frame = units * sheet.sweeps_per_frame
+
+    def scene(self, sheet, method, bend):
+        return HEAD.format(sheet=sheet, frames=1, dt=problem.FRAME, gravity=-problem.GRAVITY,
+                           method=method) + CLOTH.format(
+            sheet=sheet, density=problem.DENSITY, stretch=problem.STRETCH,
+            bend=f"bend = {{ stiffness = {problem.BEND} }}" if bend else "")
 
     def advance(self, frames):
         """The program says the median of its frames: that, as many times as there are frames."""
@@ -68,11 +74,11 @@ class Weft:
             count = int(file["VTKHDF/NumberOfPoints"][0])
             return file["VTKHDF/Points"][-count:], self._frames
 
-    def _run(self, frames, *more):
+    def _run(self, frames, *more, trace=False):
         return json.loads(self._call(
             "run", self._scene, "--device", "cpu/1", "--plan", "single", "--frames", frames,
-            "--out", pathlib.Path(self._folder.name) / "out", "--force", "--no-trace",
-            "--json", "--quiet", *more))
+            "--out", pathlib.Path(self._folder.name) / "out", "--force", "--json", "--quiet",
+            *([] if trace else ["--no-trace"]), *more))
 
     def _call(self, *arguments):
         result = subprocess.run([self._program, *map(str, arguments)], capture_output=True,

@@ -4,7 +4,7 @@
 
     {"make": name, "sheet": {...}, "weft": path, "core": n}   {"version": .., "units_per_frame": ..}
     {"advance": frames}                                       {"times": [seconds, ...]}
-    {"look": true}                              {"mean_height": .., "longest_edge": .., "complaint"}
+    {"look": true}                              {"mean_height": .., ...}   see sheet.Shape
 
 or {"missing": reason} or {"error": text}. It ends when its input does.
 """
@@ -16,7 +16,8 @@ import subprocess
 import sys
 
 from sheet import Sheet, look_at
-from systems import ALL, Missing
+from stack import Stack
+from systems import ALL, STACKED, Missing
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
@@ -73,8 +74,9 @@ class Worker:
 def make(request):
     if request["core"] is not None:
         os.sched_setaffinity(0, {request["core"]})
-    sheet = Sheet(**request["sheet"])
-    (description,) = [d for d in ALL if d.name == request["make"]]
+    kind = Stack if "sheets" in request["sheet"] else Sheet
+    sheet = kind(**request["sheet"])
+    (description,) = [d for d in ALL + STACKED if d.name == request["make"]]
     return sheet, description.make(sheet, request["weft"])
 
 

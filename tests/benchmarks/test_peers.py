@@ -14,6 +14,7 @@ PEERS = pathlib.Path(os.environ["WEFT_ROOT"]) / "benchmarks/peers"
 sys.path.insert(0, str(PEERS))
 
 import sheet as problem  # noqa: E402  (found by the line above)
+import stack as pile  # noqa: E402
 import systems  # noqa: E402
 
 
@@ -62,6 +63,8 @@ def test_table():
 @pytest.mark.parametrize("arguments, parts", [
     (["--only", "weft,newtom"], ["'newtom'", "newton-vbd-bend"]),
     (["--resolution", "3"], ["--resolution", "3 is less than 4"]),
+    (["--stack", "1"], ["--stack", "1 is less than 2"]),
+    (["--stack", "3", "--only", "pypbd"], ["'pypbd'", "newton-vbd-stack"]),
     (["--rounds", "many"], ["--rounds", "'many'"]),
     (["--weft", "/nowhere/weft"], ["/nowhere/weft", "./dev"]),
 ])
@@ -165,8 +168,9 @@ def test_hanging_sheet_is_one():
     assert shape.longest_edge == pytest.approx(1.0)
 
 
-def test_counts_are_those_of_the_mesh():
-    assert SHEET.edge_count() == len(SHEET.edges())
+def test_counts_are_those_of_a_grid():
+    cells = SHEET.resolution - 1
+    assert SHEET.edge_count() == 2 * cells * SHEET.resolution + cells**2
     corners = numpy.sort(SHEET.triangles()[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     _, triangles = numpy.unique(corners, axis=0, return_counts=True)
     assert SHEET.hinge_count() == (triangles == 2).sum()
@@ -176,7 +180,60 @@ def test_names():
     assert systems.named([]) == systems.ALL
     assert [d.name for d in systems.named(["pypbd", "weft-vbd"])] == [
         "weft-vbd", "pypbd-xpbd", "pypbd-xpbd-bend"]
-    names = [d.name for d in systems.ALL]
-    for description in systems.ALL:
-        counterpart = systems.ALL[names.index(description.counterpart)]
+    everyone = systems.ALL + systems.STACKED
+    names = [d.name for d in everyone]
+    for description in everyone:
+        counterpart = everyone[names.index(description.counterpart)]
         assert counterpart.family == "weft" and counterpart.unit == description.unit
+
+
+def test_a_stack_of_wefts_sheets():
+    result = peers("--stack", 3, "--only", "weft", "--resolution", 12, "--json", "--quiet")
+    assert result.returncode == 0, result.stderr
+    document = json.loads(result.stdout)
+    assert document["sheet"]["sheets"] == 3 and document["frames_per_turn"] == 15
+    (row,) = document["systems"]
+    assert row["system"] == "weft-vbd-stack" and row["complaint"] == ""
+    assert row["units_per_frame"] == 80 * (3 * 144 - 4)
+    assert row["ms_per_frame"] > 0 and row["mean_height"] < -0.01
+    assert row["crossings"] == (None if pile.find_self_intersections is None else 0)
+
+
+STACK = pile.Stack(resolution=12, substeps=10, iterations=8, sheets=3)
+
+
+def landed(gap):
+    """Each sheet so far above the one below it."""
+    positions = STACK.positions()
+    layers = positions[:, 1].reshape(STACK.sheets, -1)
+    layers[:] = gap * numpy.arange(STACK.sheets)[:, None]
+    positions[:, 1] = layers.ravel()
+    return positions
+
+
+def test_a_stack_that_has_landed_is_one():
+    assert problem.look_at(STACK, landed(0.009), FRAMES).complaint == ""
+
+
+@pytest.mark.parametrize("positions, complaint", [
+    (STACK.positions(), "has not come down"),
+    (landed(-0.001), "sheet 1 has got below"),
+    (numpy.nan * STACK.positions(), "no finite positions"),
+    (STACK.positions() + 0.01, "pinned corner has moved"),
+])
+def test_stacks_that_are_none(positions, complaint):
+    assert complaint in problem.look_at(STACK, positions, FRAMES).complaint
+
+
+@pytest.mark.skipif(pile.find_self_intersections is None, reason="needs libigl from PyPI")
+def test_crossings_of_a_stack_are_counted():
+    assert STACK.crossings(STACK.positions()) == 0
+    sunk = landed(0.009)
+    sunk[-78, 1] -= 0.02  # the middle of the uppermost one, through both others
+    assert STACK.crossings(sunk) > 0
+
+
+def test_all_sheets_of_a_stack_turn_about_their_middle():
+    positions = STACK.positions().reshape(STACK.sheets, -1, 3)
+    assert numpy.allclose(positions.mean(axis=1)[:, [0, 2]], 0.0)
+    assert numpy.allclose(numpy.linalg.norm(positions[:, 0, [0, 2]], axis=1), numpy.sqrt(0.5))
