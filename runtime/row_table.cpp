@@ -13,6 +13,9 @@ namespace {
 /// Entries are addressed by ints.
 constexpr long kMostEntries = std::numeric_limits<int>::max() - RowTable::kStride;
 
+/// How much room rows get at the most because others, far from them, are long [entries].
+constexpr int kMostForAll = 16;
+
 /// Rounded up to whole slices.
 int slices_of(int items) { return (items + RowTable::kStride - 1) / RowTable::kStride; }
 
@@ -97,7 +100,7 @@ void RowTable::grow() {
             own = std::max(own, wanted);
         }
     }
-    const int least = *std::ranges::max_element(room) / 2;
+    const int least = std::min(*std::ranges::max_element(room) / 2, kMostForAll);
     std::ranges::transform(room, room_.begin(), [=](int own) { return std::max(own, least); });
     place_rows();
     for (const auto& column : columns_) column->resize(entry_count());

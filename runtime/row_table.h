@@ -53,8 +53,8 @@ public:
     /// Whether a row wanted so much that there is little left for the next frame.
     bool is_tight() const;
     /// Makes room for all that was wanted and half as much again, in strips where it was tight,
-    /// as much in the strips beside them, and everywhere half of the most that a strip has: where
-    /// rows get longer, others soon do.
+    /// as much in the strips beside them, and everywhere half of the most that a strip has, up to
+    /// 16: where rows get longer, others soon do.
     void grow();
     /// How often it has grown.
     int generation() const { return generation_; }
