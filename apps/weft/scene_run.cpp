@@ -240,12 +240,13 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
         FrameRecord record = simulation_->advance({.tasks = trace_.has_value()});
         say_losses();
         say_troubles();
+        // First of all, so that a killed run's trace is no more than one frame behind its geometry.
+        if (trace_) trace_->settle();
         if (geometry_) append_geometry();
         if (std::isfinite(record.relative_error)) {
             convergence_ = fmt::format("error of a step {:.1g}", record.relative_error);
         }
         progress.show(frames_done(), convergence_);
-        if (trace_) trace_->settle();
         close(record);
         summary_->add(record);
         if (trace_) append_trace(std::move(record));

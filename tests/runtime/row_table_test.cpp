@@ -92,6 +92,14 @@ TEST_F(RowTables, GrowsOnceForWhatIsWanted) {
     }
 }
 
+/// One crowded strip must not cost all others its memory.
+TEST_F(RowTables, FarFromLongRowsRoomIsBounded) {
+    RowTable table("table", items_, 2);
+    table.needs()[30] = 100;
+    table.grow();
+    places(table, {16, 16, 150, 150});
+}
+
 /// A row without room has a start that may be read.
 TEST_F(RowTables, WithoutRoomThereIsAnEntryYet) {
     RowTable table("table", items_, 0);
