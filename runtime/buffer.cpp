@@ -1,13 +1,11 @@
 #include "runtime/buffer.h"
 
+#include <sys/mman.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <utility>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 #include "runtime/error.h"
 
@@ -20,19 +18,39 @@ constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 /// Large buffers on large pages: gathers then miss the address caches less often.
 void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
-#ifdef __linux__
+#ifdef MADV_HUGEPAGE
     ::madvise(memory, bytes, MADV_HUGEPAGE);  // a hint
 #endif
 }
 
-std::shared_ptr<void> zeroed_pages(std::size_t bytes) {
-    const std::size_t page = bytes < kHugePage ? kPage : kHugePage;
-    const std::size_t whole_pages = (bytes / page + 1) * page;
-    std::shared_ptr<void> memory(std::aligned_alloc(page, whole_pages), std::free);
+/// Zeros that take memory, and time, only where they are touched.
+std::shared_ptr<void> mapped_pages(std::size_t bytes) {
+    const std::size_t mapped = bytes + kHugePage;  // some of it before the first whole page
+    void* const start =
+        ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (start == MAP_FAILED) throw std::bad_alloc();
+    void* aligned = start;
+    std::size_t room = mapped;
+    std::align(kHugePage, bytes, aligned, room);
+    ask_for_huge_pages(aligned, bytes);
+    return {aligned, [start, mapped](void*) { ::munmap(start, mapped); }};
+}
+
+std::shared_ptr<void> allocated_pages(std::size_t bytes) {
+    std::shared_ptr<void> memory(std::aligned_alloc(kPage, bytes), std::free);
     if (memory == nullptr) throw std::bad_alloc();
-    if (page == kHugePage) ask_for_huge_pages(memory.get(), whole_pages);
-    std::memset(memory.get(), 0, whole_pages);
+    std::memset(memory.get(), 0, bytes);
     return memory;
+}
+
+/// More than that many bytes: drivers may look a little beyond the end.
+std::size_t padded(std::size_t bytes) {
+    const std::size_t page = bytes < kHugePage ? kPage : kHugePage;
+    return (bytes / page + 1) * page;
+}
+
+std::shared_ptr<void> zeroed_pages(std::size_t bytes) {
+    return bytes < kHugePage ? allocated_pages(bytes) : mapped_pages(bytes);
 }
 
 /// Items are numbered by ints; a negative count, which becomes a huge one, is not meant.
@@ -47,12 +65,17 @@ BufferStorage::BufferStorage(std::string name, std::size_t count, std::size_t el
     : name_(std::move(name)),
       count_(countable(name_, count)),
       element_size_(element_size),
-      host_(zeroed_pages(bytes())) {}
+      room_(padded(bytes())),
+      host_(zeroed_pages(room_)) {}
 
+/// Who has grown will grow again: mapped pages that nobody touches cost nothing.
 void BufferStorage::resize(std::size_t count) {
     count_ = countable(name_, count);
-    host_ = zeroed_pages(bytes());
     ++generation_;
+    if (padded(bytes()) <= room_) return;
+    host_.reset();
+    room_ = padded(2 * bytes());
+    host_ = zeroed_pages(room_);
 }
 
 }  // namespace weft

@@ -13,7 +13,8 @@
 namespace weft {
 
 /// The host's copy of a buffer: its home. Page-aligned, zeroed, and padded so that devices which
-/// share the host's memory can use it in place. Device copies belong to the devices.
+/// share the host's memory can use it in place. Large ones take memory where they are touched.
+/// Device copies belong to the devices.
 class BufferStorage {
 public:
     /// Throws Misuse for more elements than an int can number.
@@ -29,8 +30,8 @@ public:
     void* host() { return host_.get(); }
     const void* host() const { return host_.get(); }
 
-    /// Another size, between frames: all zeros, elsewhere in memory. Executors that know the buffer
-    /// have to be told (Executor::rebind).
+    /// Another size, between frames: with zeros or what was there before, maybe elsewhere in
+    /// memory. Executors that know the buffer have to be told (Executor::rebind).
     void resize(std::size_t count);
     /// How often that has happened.
     int generation() const { return generation_; }
@@ -43,6 +44,7 @@ private:
     std::string name_;
     std::size_t count_;
     std::size_t element_size_;
+    std::size_t room_;  ///< [B]
     std::shared_ptr<void> host_;
     std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
     int generation_ = 0;

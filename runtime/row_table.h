@@ -37,7 +37,7 @@ public:
     Buffer<int>& counts() { return counts_; }
     /// [items] for the kernel that fills the rows: the most that each wanted in this frame.
     Buffer<int>& needs() { return needs_; }
-    /// A column of entries. Grows with the table, and is all zeros then.
+    /// A column of entries. Grows with the table, and has nothing of use then.
     template <class T>
     Buffer<T>& add_column(const std::string& name) {
         auto column = std::make_unique<Buffer<T>>(name_ + "." + name, entry_count());

@@ -8,31 +8,42 @@
 
 WEFT_KERNELS_BEGIN
 
+/// A way, and how far it led through a plane, negative; 0: nowhere [m].
+typedef struct {
+    real3 way;
+    real through;
+} turned_way;
+
 /// The end of a way, and how much the foothold lacks to be before all planes [m], if it does.
 typedef struct {
     real3 way;
     real lack;
 } kept_way;
 
-/// A way within a vertex' ball and before all its planes.
-/// start, count  the vertex' row of planes
-/// foothold      from which the planes let go on
-WEFT_INLINE kept_way way_before(WEFT_GLOBAL const float4* planes, whole start, whole count,
-                                real3 foothold, real3 way, float soft, float hard) {
+/// A round of taking out of a way what leads through planes: where there was nothing, the next
+/// round will find nothing, either.
+WEFT_INLINE turned_way turn_before(WEFT_GLOBAL const float4* planes, whole start, whole count,
+                                   real3 way, float soft) {
+    turned_way w = {way, splat(0.0f)};
     const int longest = largest_whole(count);
-    for (int round = 0; round < WEFT_KEEPING_ROUNDS; ++round) {
-        for (int k = 0; k < longest; ++k) {
-            const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
-            const real4 plane = gather4(planes, entry);
-            const real room = room_before(plane.w, splat(soft));
-            const real3 kept = keep_before(way, xyz(plane), on ? room : splat(1e30f));
-            way = kept;
-        }
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const real4 plane = gather4(planes, entry);
+        const real room = on ? room_before(plane.w, splat(soft)) : splat(1e30f);
+        w.through = smaller(w.through, dot3(w.way, xyz(plane)) + room);
+        const real3 kept = keep_before(w.way, xyz(plane), room);
+        w.way = kept;
     }
+    return w;
+}
+
+/// As much of a way as lies before all planes, going on from the foothold.
+WEFT_INLINE kept_way share_of_way(WEFT_GLOBAL const float4* planes, whole start, whole count,
+                                  real3 foothold, real3 way, float hard) {
     real share = splat(1.0f);
     real lack = splat(0.0f);
+    const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
@@ -44,6 +55,28 @@ WEFT_INLINE kept_way way_before(WEFT_GLOBAL const float4* planes, whole start, w
         lack = on ? larger(lack, missing) : lack;
     }
     kept_way kept = {between3(foothold, way, share), lack};
+    return kept;
+}
+
+/// A way within a vertex' ball and before all its planes.
+/// start, count  the vertex' row of planes
+/// foothold      from which the planes let go on
+/// makes_way     whether a foothold is not the anchor
+/// soft, hard    as in truncate_contacts
+WEFT_INLINE kept_way way_before(WEFT_GLOBAL const float4* planes, whole start, whole count,
+                                real3 foothold, int makes_way, real3 wanted, float soft,
+                                float hard) {
+    const real one = splat(1.0f);
+    const real zero = splat(0.0f);
+    turned_way w = {wanted, -one};
+    for (int round = 0; round < WEFT_KEEPING_ROUNDS && any_item(w.through < zero); ++round) {
+        w = turn_before(planes, start, count, w.way, soft);
+    }
+    // Where nothing is left to take out, all planes are kept by `soft`, and so by less, too.
+    if (makes_way || soft < hard || any_item(w.through < zero)) {
+        return share_of_way(planes, start, count, foothold, w.way, hard);
+    }
+    kept_way kept = {between3(foothold, w.way, one), zero};
     return kept;
 }
 
@@ -98,11 +131,12 @@ WEFT_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const 
         const whole row = load_whole(counts, i);
         const whole count = out ? row : splat_whole(0);
         real3 foothold = make3(zero, zero, zero);
-        if (smallest_real(nearest) < 0.0f) foothold = foothold_before(planes, start, count);
+        const int makes_way = smallest_real(nearest) < 0.0f;
+        if (makes_way) foothold = foothold_before(planes, start, count);
         const real length = length3(wanted);
         const real shorter = length > radius ? radius / divisor(length) : one;
-        const kept_way kept =
-            way_before(planes, start, count, foothold, scale(wanted, shorter), soft, hard);
+        const kept_way kept = way_before(planes, start, count, foothold, makes_way,
+                                         scale(wanted, shorter), soft, hard);
         const real3 way = kept.way;
         // Planes may have led it out of the ball again; between here and the foothold all is well.
         const real from = length3(foothold);
