@@ -264,6 +264,10 @@ std::size_t Executor::find_submitter(const scheduler::Plan& plan) const {
 }
 
 void RunTimes::append(RunTimes next) {
+    if (tasks.empty()) {
+        *this = std::move(next);
+        return;
+    }
     end = next.end;
     for (std::size_t d = 0; d < tasks.size(); ++d) {
         tasks[d].insert(tasks[d].end(), next.tasks[d].begin(), next.tasks[d].end());

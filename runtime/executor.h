@@ -30,7 +30,7 @@ struct RunTimes {
     std::vector<std::vector<TaskTime>> tasks;  ///< [device]
     std::vector<CopyRecord> copies;
 
-    /// What ran next.
+    /// What ran next; or first, where nothing has.
     void append(RunTimes next);
 };
 

@@ -265,6 +265,7 @@ FrameRecord Simulation::advance(const FrameDetails& details) {
 void Simulation::begin_frame() {
     start_ = snapshot();
     snapshot_.reset();
+    was_redone_ = redone_ > 0;
     redone_ = 0;
 }
 
@@ -287,37 +288,53 @@ void Simulation::go_on_without(const DeviceLost& lost) {
 RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
     bool is_swept_anew = false;
     while (true) {
-        RunTimes times = run_substeps(step, plan);
-        fetch();
-        ContactResponse* contact = solver_->contact();
-        const bool has_to_be_redone =
-            run_->make_room() || (contact != nullptr && contact->revise(run_->executor()));
-        if (!has_to_be_redone && (is_swept_anew || !model_->outran_obstacles())) return times;
-        is_swept_anew = is_swept_anew || !has_to_be_redone;
-        if (has_to_be_redone) ++redone_;
+        auto times = try_substeps(step, plan);
+        if (times && (is_swept_anew || !model_->outran_obstacles())) return std::move(*times);
+        is_swept_anew = is_swept_anew || times.has_value();
+        if (!times) ++redone_;
         restore(*start_);
         hand_over_placed();
     }
 }
 
-/// Where the last substep is wanted, its start is looked at.
-RunTimes Simulation::run_substeps(const Step& step, const scheduler::Plan& plan) {
-    const int substeps = model_->scene.substeps;
+/// None: they have to be done again. What frames lack that were done again shows in their first
+/// substep as a rule, so it is looked at before the others are begun. (Looking more often does not
+/// pay: how much room is needed is known when all substeps have run.)
+std::optional<RunTimes> Simulation::try_substeps(const Step& step, const scheduler::Plan& plan) {
+    const bool is_doubtful = (redone_ > 0 || was_redone_) && model_->scene.substeps > 1;
+    RunTimes times;
+    if (is_doubtful) {
+        times = run_->executor().run(step, plan, 1);
+        if (lacks_room()) return std::nullopt;
+    }
+    times.append(run_substeps(step, plan, is_doubtful ? 1 : 0));
+    fetch();
+    if (lacks_room()) return std::nullopt;
+    return times;
+}
+
+/// Whether substeps that have run cannot stay as they are; they will find room when they run again.
+bool Simulation::lacks_room() {
+    ContactResponse* contact = solver_->contact();
+    return run_->make_room() || (contact != nullptr && contact->revise(run_->executor()));
+}
+
+/// From substep `first` on. Where the last one is wanted, its start is looked at.
+RunTimes Simulation::run_substeps(const Step& step, const scheduler::Plan& plan, int first) {
+    const int last = model_->scene.substeps - 1;
     Executor& executor = run_->executor();
     if (!samples_ || !samples_->wants(*model_, frame_)) {
         if (samples_) samples_->skip();
-        return executor.run(step, plan, substeps);
+        return executor.run(step, plan, last + 1 - first, first);
     }
     RunTimes times;
-    if (substeps > 1) {
-        times = executor.run(step, plan, substeps - 1);
+    if (last > first) times = executor.run(step, plan, last - first, first);
+    if (last > 0) {
         executor.fetch(*model_->positions);
         executor.fetch(*model_->velocities);
     }
-    samples_->begin(*model_, time() + (substeps - 1) * model_->h);
-    RunTimes last = executor.run(step, plan, 1, substeps - 1);
-    if (substeps == 1) return last;
-    times.append(std::move(last));
+    samples_->begin(*model_, time() + last * model_->h);
+    times.append(executor.run(step, plan, 1, last));
     return times;
 }
 

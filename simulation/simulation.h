@@ -153,7 +153,9 @@ private:
     void fetch();
     bool advance_from_start(const FrameDetails& details, FrameRecord& frame);
     RunTimes run_frame(const Step& step, const scheduler::Plan& plan);
-    RunTimes run_substeps(const Step& step, const scheduler::Plan& plan);
+    std::optional<RunTimes> try_substeps(const Step& step, const scheduler::Plan& plan);
+    bool lacks_room();
+    RunTimes run_substeps(const Step& step, const scheduler::Plan& plan, int first);
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
@@ -185,6 +187,7 @@ private:
     /// Of the present state; null: none was asked for yet.
     mutable std::shared_ptr<const SimulationState> snapshot_;
     std::uint32_t redone_ = 0;  ///< how often the frame at hand was run again for contact
+    bool was_redone_ = false;   ///< the frame before it
     int frame_ = 0;
 };
 
