@@ -158,12 +158,19 @@ typedef struct {
     real nearest;            ///< distance of a contact [m]
 } contact_rows;
 
+/// From how far away planes cannot hold back what stays in a ball of that radius [m].
+WEFT_INLINE real out_of_reach(real radius, contact_settings settings) {
+    const float start = WEFT_CONTACT_START_SLACK * settings.range;
+    return radius + splat(start > settings.slack ? start : settings.slack);
+}
+
 /// Adds what the pair of these four vertices is to one of them.
+/// farthest       from where planes are left out [m]
 /// is_on, pushes  for which items there is a pair at all, and one that may push
 /// others as in fill_contacts
 WEFT_INLINE contact_rows add_contact(
-    contact_rows row, mask is_on, mask pushes, whole vertex, whole c0, whole c1, whole c2, whole c3,
-    int is_edges, contact_settings settings, WEFT_GLOBAL const float4* anchors,
+    contact_rows row, real farthest, mask is_on, mask pushes, whole vertex, whole c0, whole c1,
+    whole c2, whole c3, int is_edges, contact_settings settings, WEFT_GLOBAL const float4* anchors,
     WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const float* stiffness, whole plane_start,
     whole plane_room, WEFT_GLOBAL float4* planes, whole start, whole room, WEFT_GLOBAL int* corner0,
     WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2, WEFT_GLOBAL int* corner3,
@@ -184,10 +191,11 @@ WEFT_INLINE contact_rows add_contact(
 
     // Where they touch there is no direction between them.
     const mask is_apart = both(is_on, f.distance > splat(1e-12f));
-    const mask plane_fits = both(is_apart, row.planes < plane_room);
+    const mask holds_back = both(is_apart, before < farthest);
+    const mask plane_fits = both(holds_back, row.planes < plane_room);
     scatter4_where(plane_fits, planes, address(plane_start + row.planes * WEFT_CONTACT_STRIDE),
                    with_w(away, before));
-    row.planes = is_apart ? row.planes + splat_whole(1) : row.planes;
+    row.planes = holds_back ? row.planes + splat_whole(1) : row.planes;
     row.least = is_apart ? smaller(row.least, before) : row.least;
     row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
 
@@ -213,7 +221,7 @@ WEFT_INLINE contact_rows add_contact(
 }
 
 /// Fills the rows of each vertex: from pairs with itself, with its triangles, with its edges.
-/// anchors     [vertices] xyz: where pairs were found [m]
+/// anchors     [vertices] xyz: where pairs were found [m], w: how far the vertex may get [m]
 /// goals       [vertices] xyz: where inertia, or the scene, leads them [m]; w = 1/mass [1/kg]
 /// stiffness   [vertices] what a contact's is measured by [N/m]
 /// surface     [vertices] the number as a vertex of the surface, and one more; 0 inside a body
@@ -264,6 +272,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     const whole plane_room = load_whole(plane_rows, column(i, vertex_count, 1));
     const whole start = load_whole(rows, i);
     const whole room = load_whole(rows, column(i, vertex_count, 1));
+    const real farthest = out_of_reach(load4(anchors, i).w, settings);
     contact_rows row = {none, none, splat(1e30f), splat(1e30f)};
 
     const real free = load4(goals, i).w;
@@ -282,9 +291,9 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
         const whole c1 = gather_whole(triangles, address(t));
         const whole c2 = gather_whole(triangles, address(t + splat_whole(triangle_count)));
         const whole c3 = gather_whole(triangles, address(t + splat_whole(2 * triangle_count)));
-        row = add_contact(row, is_on, pushes, vertex, vertex, c1, c2, c3, 0, settings, anchors,
-                          goals, stiffness, plane_start, plane_room, planes, start, room, corner0,
-                          corner1, corner2, corner3, normals, weights, measures);
+        row = add_contact(row, farthest, is_on, pushes, vertex, vertex, c1, c2, c3, 0, settings,
+                          anchors, goals, stiffness, plane_start, plane_room, planes, start, room,
+                          corner0, corner1, corner2, corner3, normals, weights, measures);
     }
 
     const whole first_triangle = gather_whole(triangle_begin, address(apex));
@@ -311,9 +320,10 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
                 const whole other = half_of(code);
                 const mask pushes = code > other + other;
                 const whole c0 = gather_whole(apexes, address(other));
-                row = add_contact(row, is_on, pushes, vertex, c0, c1, c2, c3, 0, settings, anchors,
-                                  goals, stiffness, plane_start, plane_room, planes, start, room,
-                                  corner0, corner1, corner2, corner3, normals, weights, measures);
+                row = add_contact(row, farthest, is_on, pushes, vertex, c0, c1, c2, c3, 0, settings,
+                                  anchors, goals, stiffness, plane_start, plane_room, planes, start,
+                                  room, corner0, corner1, corner2, corner3, normals, weights,
+                                  measures);
             }
         }
     }
@@ -344,9 +354,10 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
                 const whole c1 = gather_whole(edges, address(low + splat_whole(edge_count)));
                 const whole c2 = gather_whole(edges, address(high));
                 const whole c3 = gather_whole(edges, address(high + splat_whole(edge_count)));
-                row = add_contact(row, is_on, pushes, vertex, c0, c1, c2, c3, 1, settings, anchors,
-                                  goals, stiffness, plane_start, plane_room, planes, start, room,
-                                  corner0, corner1, corner2, corner3, normals, weights, measures);
+                row = add_contact(row, farthest, is_on, pushes, vertex, c0, c1, c2, c3, 1, settings,
+                                  anchors, goals, stiffness, plane_start, plane_room, planes, start,
+                                  room, corner0, corner1, corner2, corner3, normals, weights,
+                                  measures);
             }
         }
     }

@@ -17,6 +17,10 @@
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
+/// What a substep's start leaves between plane and surface, in ranges of contact; no truncation
+/// asks for more, but for the slack that all leave.
+#define WEFT_CONTACT_START_SLACK 0.25f
+
 /// Between the entries of one row: rows lie in slices of 8 items (runtime/row_table.h).
 #define WEFT_CONTACT_STRIDE 8
 

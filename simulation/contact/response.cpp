@@ -23,8 +23,7 @@ namespace weft {
 namespace {
 
 // In parts of the thickness.
-constexpr float kMargin = 0.25f;      ///< by which vertices may go farther than inertia leads them
-constexpr float kStartSlack = 0.25f;  ///< what a substep's start leaves between plane and surface
+constexpr float kMargin = 0.25f;  ///< by which vertices may go farther than inertia leads them
 // In parts of the least distance.
 constexpr float kSoftSlack = 0.5f;
 constexpr float kHardSlack = 0.125f;
@@ -175,7 +174,7 @@ void ContactResponse::make_fill() {
                 motion_.body_count(), motion_.chunk_count(), kInstance)}};
     if (!model_.scene.contact->planes) return;
     fill_.launches.insert(fill_.launches.begin() + 1,
-                          truncation(*model_.positions, kStartSlack * range_));
+                          truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_));
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {

@@ -82,25 +82,51 @@ TEST(Truncation, KeepsToItsBall) {
     EXPECT_NEAR(end.at.x, 0.03, kRounding);
 }
 
-/// Random wedges: whatever is asked for, all planes hold, and the ball.
+/// A wedge of up to 12 planes; some of them at the vertex.
+std::vector<float4> random_planes(Random& random, float farthest) {
+    std::vector<float4> planes;
+    for (int k = random.integer(1, 12); k > 0; --k) {
+        float4 n = random.point(1.0f);
+        const float size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) + 1e-6f;
+        planes.push_back({n.x / size, n.y / size, n.z / size,
+                          random.integer(0, 3) == 0 ? 0.0f : random.real(0.0f, farthest)});
+    }
+    return planes;
+}
+
+void expect_before(const std::vector<float4>& planes, Vec3 end) {
+    for (const float4& plane : planes) {
+        const double room = std::max(double{plane.w} - double{kHard}, 0.0);
+        EXPECT_GT(dot(vec(plane), end), -room - kRounding);
+    }
+}
+
+/// Whatever is asked for, all planes hold, and the ball.
 TEST(Truncation, HoldsBeforeAnyPlanes) {
     Random random(5);
     for (int trial = 0; trial < 3000; ++trial) {
-        std::vector<float4> planes;
-        for (int k = random.integer(1, 12); k > 0; --k) {
-            float4 n = random.point(1.0f);
-            const float size = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) + 1e-6f;
-            planes.push_back({n.x / size, n.y / size, n.z / size,
-                              random.integer(0, 3) == 0 ? 0.0f : random.real(0.0f, 0.02f)});
-        }
+        const auto planes = random_planes(random, 0.02f);
         const float4 way = random.point(0.1f);
         const Cut end = truncate({0, 0, 0, 0.03f}, vec(way), planes);
         EXPECT_LT(length(end.at), 0.03 + kRounding);
-        for (const float4& plane : planes) {
-            const double room = std::max(double{plane.w} - double{kHard}, 0.0);
-            EXPECT_GT(dot(vec(plane), end.at), -room - kRounding);
-        }
+        expect_before(planes, end.at);
     }
+}
+
+/// Planes that a vertex has no row entries for hold as well.
+TEST(Truncation, HoldsBeforeThoseOutOfReach) {
+    constexpr float kRadius = 0.03f;
+    const kernels::contact_settings settings{0.004f, kSoft, 1.0f};
+    const float farthest = kernels::out_of_reach(kRadius, settings);
+    Random random(7);
+    std::size_t left_out = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        const auto planes = random_planes(random, 2.0f * kRadius);
+        auto within = planes;
+        left_out += std::erase_if(within, [=](const float4& p) { return p.w >= farthest; });
+        expect_before(planes, truncate({0, 0, 0, kRadius}, vec(random.point(0.1f)), within).at);
+    }
+    EXPECT_GT(left_out, 3000U);
 }
 
 TEST(Truncation, DoesNotDependOnThePlace) {
