@@ -35,11 +35,16 @@ public:
 
     /// Whether the frame of the last next() belongs to a trial.
     bool running() const { return running_; }
+    /// Whether that is a trial of this alternative.
+    bool tries(std::uint32_t alternative) const { return running_ && alternative_ == alternative; }
     /// Whether it is one of those that tell nothing.
     bool waking() const { return running_ && frame_ < settings_.waking; }
 
     /// All that this alternative needs has been in use in this frame: it needs no trial.
     void used(std::uint32_t alternative) { probes_.used(alternative); }
+
+    /// What is known of it is from another time: it has been out of use for long, or always.
+    bool is_stale(std::uint32_t alternative) const { return probes_.is_stale(alternative); }
 
     /// Ends a frame. Gives the alternative whose trial has just ended well: its frames, but for the
     /// first, were faster than what the chosen one was expected to take.

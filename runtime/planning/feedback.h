@@ -19,6 +19,7 @@ public:
 
     const TimingModel& timing() const { return timing_; }
     TimingModel& timing() { return timing_; }
+    const scheduler::PlanChoice& choice() const { return choice_; }
     scheduler::PlanChoice& choice() { return choice_; }
     /// How much longer than its tasks' costs say a plan is expected to take in the next frame.
     double slowdown(std::uint32_t alternative) const {
@@ -32,13 +33,16 @@ public:
 
 private:
     void find_costs(const FramePlan& plan);
+    void find_typical(const FramePlan& plan, const std::vector<double>& seconds);
 
     TimingModel timing_;
     scheduler::PlanChoice choice_;
     scheduler::Pace pace_;
     // Working memory.
     scheduler::Timetable timetable_;
-    std::vector<double> cost_;
+    std::vector<double> cost_;                 ///< [task]
+    std::vector<double> typical_;              ///< [task]
+    std::vector<std::vector<double>> ratios_;  ///< [kind and device]
 };
 
 }  // namespace weft

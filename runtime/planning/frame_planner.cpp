@@ -100,17 +100,31 @@ void FramePlanner::find_expectations() {
     }
 }
 
+/// Everybody's share is no choice of its own: it is there for trials. And where one device has all
+/// cores of a team, the team's mixture is seldom the better one, while forecasts of it are often
+/// wrong, as it has many parts: it is not chosen by what was learnt in another time.
+bool FramePlanner::needs_trial(std::uint32_t alternative) const {
+    if (candidates_.is_single(alternative)) return false;
+    if (candidates_.is_everybody(alternative)) return true;
+    if (kind_ != PlanKind::kAuto || alternative == feedback_.choice().current()) return false;
+    if (!trials_.tries(alternative) && !trials_.is_stale(alternative)) return false;
+    const unsigned mask = candidates_.devices_of(alternative);
+    for (std::size_t d = 0; d < devices_.size(); ++d) {
+        if ((mask >> d & 1U) != 0 && is_part_of_another(devices_, d)) return true;
+    }
+    return false;
+}
+
 std::uint32_t FramePlanner::choose() {
     if (kind_ != PlanKind::kSingle) candidates_.improve_mixtures();
     if (kind_ == PlanKind::kAuto || kind_ == PlanKind::kPlaced) {
         candidates_.improve_placements(kind_ == PlanKind::kPlaced);
     }
     find_expectations();
-    // Everybody's share is no choice of its own: it is there for trials.
     std::vector<double>& choice = choosable_;
     choice = predicted_;
     for (std::uint32_t a = 0; a < choice.size(); ++a) {
-        if (candidates_.is_everybody(a)) choice[a] = kImpossible;
+        if (needs_trial(a)) choice[a] = kImpossible;
     }
     return feedback_.choice().choose(choice);
 }

@@ -35,6 +35,7 @@ public:
 
 private:
     bool is_wanted(std::uint32_t alternative) const;
+    bool needs_trial(std::uint32_t alternative) const;
     void find_expectations();
     std::uint32_t choose();
     std::uint32_t or_trial(std::uint32_t chosen);

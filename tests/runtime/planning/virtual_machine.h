@@ -25,7 +25,7 @@ public:
             return fixed + factor * per_item * static_cast<double>(task.items);
         }
     };
-    /// teams  [device]; empty: all are of one
+    /// teams  [device]; empty: all are of one. Those of other teams than the first have two cores
     VirtualMachine(std::vector<Speed> speeds, double latency, const std::vector<int>& teams = {});
 
     /// Executes a plan as an executor would: every device its tasks in the plan's order, each as
