@@ -80,7 +80,9 @@ double ClothScene::time() const { return impl_->simulation().time(); }
 double ClothScene::frame_time() const { return impl_->model().scene.dt; }
 int ClothScene::vertex_count() const { return impl_->model().vertex_count(); }
 std::vector<std::array<int, 3>> ClothScene::triangles() const { return impl_->model().triangles; }
-std::vector<float> ClothScene::positions() const { return impl_->simulation().positions(); }
+std::vector<float> ClothScene::positions() const {
+    return impl_->model().in_scene(impl_->simulation().positions());
+}
 std::vector<float> ClothScene::velocities() const { return impl_->simulation().velocities(); }
 std::string ClothScene::state_hash() const { return impl_->simulation().hash(); }
 std::vector<std::string> ClothScene::warnings() const { return impl_->warnings(); }
@@ -96,7 +98,9 @@ std::vector<ClothBody> ClothScene::bodies() const {
 void ClothScene::set_state(std::span<const float> positions, std::span<const float> velocities) {
     impl_->check_size(positions, "positions");
     impl_->check_size(velocities, "velocities");
-    impl_->simulation().start_from(frame(), positions, velocities);
+    const std::vector<float> from_origin =
+        impl_->model().from_origin({positions.begin(), positions.end()});
+    impl_->simulation().start_from(frame(), from_origin, velocities);
 }
 
 void ClothScene::push(int first, int count, const std::array<float, 3>& velocity) {
@@ -108,7 +112,7 @@ void ClothScene::push(int first, int count, const std::array<float, 3>& velocity
                 velocity[static_cast<std::size_t>(axis)];
         }
     }
-    set_state(positions(), velocities);
+    impl_->simulation().start_from(frame(), impl_->simulation().positions(), velocities);
 }
 
 }  // namespace weft

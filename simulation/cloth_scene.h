@@ -48,7 +48,9 @@ public:
     /// Of cloths all, of solids their surface. [triangles] three vertices each
     std::vector<std::array<int, 3>> triangles() const;
 
-    std::vector<float> positions() const;   ///< [3 * vertex_count()] xyz [m]
+    /// [3 * vertex_count()] xyz [m]. A scene far from its origin is simulated as if it were near;
+    /// these are as exact as single precision is there.
+    std::vector<float> positions() const;
     std::vector<float> velocities() const;  ///< [3 * vertex_count()] xyz [m/s]
     /// Another state for the next frame to start from; sizes as above, Misuse otherwise. Pinned
     /// vertices are held where they are put.

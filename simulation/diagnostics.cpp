@@ -16,7 +16,7 @@ bool is_finite(const float4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-std::string text_of(const float4& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
+std::string text_of(Vec3 v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
 
 /// The first of the values that is not as it has to be; -1: all are.
 template <class IsGood>
@@ -37,8 +37,9 @@ std::optional<BadState> find_too_fast(const Model& model) {
         return dot(u, u) <= most * most;
     });
     if (v < 0) return std::nullopt;
-    return BadState{v, fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
-                                   text_of(velocities[static_cast<std::size_t>(v)]), most)};
+    return BadState{v,
+                    fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
+                                text_of(to_vec3(velocities[static_cast<std::size_t>(v)])), most)};
 }
 
 }  // namespace
@@ -86,7 +87,8 @@ Vec3 mass_moment(const Model& model, std::span<const float4> positions) {
     for_each_block(count, [&](int block, int begin, int end) {
         Vec3 sum;
         for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
-            if (positions[v].w > 0.0f) sum = sum + model.masses[v] * to_vec3(positions[v]);
+            if (positions[v].w <= 0.0f) continue;
+            sum = sum + model.masses[v] * model.in_scene(to_vec3(positions[v]));
         }
         sums[static_cast<std::size_t>(block)] = sum;
     });
@@ -97,11 +99,12 @@ std::optional<BadState> find_non_finite(const Model& model) {
     const auto positions = model.positions->span(), velocities = model.velocities->span();
     const int x = find_bad(positions, is_finite), u = find_bad(velocities, is_finite);
     if (x >= 0 && (u < 0 || x <= u)) {
-        const std::string place = text_of(positions[static_cast<std::size_t>(x)]);
+        const Vec3 from_origin = to_vec3(positions[static_cast<std::size_t>(x)]);
+        const std::string place = text_of(model.in_scene(from_origin));
         return BadState{x, "position " + place + " m is not finite"};
     }
     if (u < 0) return std::nullopt;
-    const std::string velocity = text_of(velocities[static_cast<std::size_t>(u)]);
+    const std::string velocity = text_of(to_vec3(velocities[static_cast<std::size_t>(u)]));
     return BadState{u, "velocity " + velocity + " m/s is not finite"};
 }
 

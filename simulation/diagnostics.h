@@ -13,7 +13,7 @@ namespace weft {
 /// The energies of a state [J], in double precision.
 struct Energies {
     double kinetic = 0.0;
-    double gravity = 0.0;           ///< potential, zero at the origin
+    double gravity = 0.0;           ///< potential, zero at the scene's origin
     std::vector<double> elements;   ///< of the model's families
     std::optional<double> contact;  ///< none: the scene has no [contact]
 
@@ -36,7 +36,7 @@ std::optional<BadState> find_non_finite(const Model& model);
 /// bounds of the scene's [guard]. strain: the model's
 std::optional<BadState> find_beyond_guard(const Model& model, const Strain& strain);
 
-/// Sum of mass times place of all that moves freely [kg m].
+/// Sum of mass times place of all that moves freely, in the scene's own coordinates [kg m].
 Vec3 mass_moment(const Model& model, std::span<const float4> positions);
 
 /// "vertex 12 of cloth 'sheet'"

@@ -40,7 +40,7 @@ bool is_stretched(double strain, double known) { return strain > 1.5 * known; }
 std::vector<char> held_by_obstacles(const Model& model, double time) {
     if (!model.obstacles) return {};
     std::vector<char> held(model.positions->count());
-    for (const Obstacle& obstacle : model.scene.obstacles) {
+    for (const Obstacle& obstacle : model.convex_obstacles) {
         const Frame frame = obstacle.frame_at(time);
         for_each_block(model.vertex_count(), [&](int /*block*/, int begin, int end) {
             for (int v = begin; v < end; ++v) {

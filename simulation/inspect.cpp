@@ -233,6 +233,7 @@ std::vector<Inspection::LeftOut> find_left_out(const Model& model, const KernelS
 
 Inspection inspect(const Model& model, Solver& solver) {
     Inspection result;
+    result.origin = model.origin;
     result.vertices = model.vertex_count();
     result.triangles = static_cast<int>(model.triangles.size());
     result.strips = model.strips.count();

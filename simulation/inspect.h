@@ -41,6 +41,7 @@ struct Inspection {
         std::vector<std::string> kernels;  ///< that nobody launches for this reason
     };
 
+    Vec3 origin;  ///< that positions in buffers count from, in the scene's own coordinates [m]
     int vertices = 0;
     int triangles = 0;
     int strips = 0;

@@ -31,7 +31,7 @@ public:
           double start, double end, bool with_pins)
         : model_(model), before_(before), now_(now) {
         if (model.moving_pins && with_pins) lead_by_pins();
-        for (const Obstacle& obstacle : model.scene.obstacles) {
+        for (const Obstacle& obstacle : model.convex_obstacles) {
             const Frame from = obstacle.frame_at(start);
             const Frame to = obstacle.frame_at(end);
             if (!(from == to)) lead_by(obstacle, from, to);

@@ -124,8 +124,9 @@ std::optional<OutsideWork> work_of_pins(const Model& model, const SimulationStat
     if (const auto velocity = model.moving_pins->common_velocity(start, model.h, substeps)) {
         return work_of_push(model, before, *velocity, substeps);
     }
-    const auto twist = common_twist(model.scene, start, model.h, substeps);
+    auto twist = common_twist(model.scene, start, model.h, substeps);
     if (!twist) return std::nullopt;
+    twist->center = twist->center - model.origin;
     return work_of_turn(model, before, *twist, substeps);
 }
 

@@ -25,6 +25,9 @@ TextPairs settings_of(const Model& model, const Solver& solver) {
     if (scene.solver.tolerance > 0.0) {
         settings.emplace_back("tolerance", fmt::format("{}", scene.solver.tolerance));
     }
+    if (const std::string origin = origin_setting(model); !origin.empty()) {
+        settings.emplace_back("origin", origin);
+    }
     if (solver.iterate_count() > 1) {
         settings.emplace_back("iterates", std::to_string(solver.iterate_count()));
     }
@@ -48,6 +51,11 @@ DeviceDescription describe(const DeviceInfo& info) {
 }
 
 }  // namespace
+
+std::string origin_setting(const Model& model) {
+    const Vec3 o = model.origin;
+    return o == Vec3{} ? "" : fmt::format("{} {} {}", o.x, o.y, o.z);
+}
 
 RunDescription describe_run(const Model& model, const Solver& solver,
                             const std::vector<std::unique_ptr<Device>>& devices) {

@@ -505,8 +505,10 @@ RunDescription Simulation::describe() const {
     return run;
 }
 
-std::vector<float> Simulation::positions() const { return snapshot()->scene_positions(*model_); }
-std::vector<float> Simulation::velocities() const { return snapshot()->scene_velocities(*model_); }
+std::vector<float> Simulation::positions() const { return snapshot()->ordered_positions(*model_); }
+std::vector<float> Simulation::velocities() const {
+    return snapshot()->ordered_velocities(*model_);
+}
 std::string Simulation::hash() const { return snapshot()->hash(*model_); }
 const Energies& Simulation::energies() const { return watch_->account().last().energies; }
 

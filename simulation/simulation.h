@@ -101,8 +101,8 @@ public:
     /// learnt while others kept the cores busy.
     void save_costs() { run_->save_costs(frame_); }
 
-    /// Goes on from another state, at the start of `frame`: xyz of all vertices in scene order [m],
-    /// [m/s]. What a solver remembers of earlier substeps is forgotten.
+    /// Goes on from another state, at the start of `frame`: as positions() and velocities() have
+    /// it. What a solver remembers of earlier substeps is forgotten.
     void start_from(int frame, std::span<const float> positions, std::span<const float> velocities);
 
     /// Simulates the next frame by a plan from elsewhere, a replay's. Nothing is planned, learnt or
@@ -134,7 +134,8 @@ public:
     /// For traces: everything that is known before the first frame but the command line.
     RunDescription describe() const;
 
-    /// xyz of all vertices in scene order [m], [m/s].
+    /// xyz of all vertices in scene order, counted from the model's origin [m], [m/s]. (In the
+    /// scene's own coordinates positions may lose digits: Model::in_scene().)
     std::vector<float> positions() const;
     std::vector<float> velocities() const;
     std::string hash() const;

@@ -70,21 +70,40 @@ void warn_of_turns(const Model& model, const Obstacle& obstacle, Warnings& warni
         static_cast<long>(std::ceil(turn.rate * scene.dt / kLargestTurn - 1e-6))));
 }
 
-/// Positions are single precision: what is far from the origin and fine is hardly there. Rounded to
-/// 0.7 % of its edges, a sheet had 0.5 to 0.8 of its motion; to 0.9 %, a block fell 0.4 as far, to
-/// 0.09 %, 0.84 to 1.0 as far (docs/stability.md).
+/// The largest coordinate of anything with mass, as the model counts them [m].
+double reach_of_bodies(const Model& model) {
+    double most = 0.0;
+    for (std::size_t v = 0; v < model.masses.size(); ++v) {
+        if (!(model.masses[v] > 0.0)) continue;
+        const Vec3 x = to_vec3((*model.positions)[v]);
+        most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    }
+    return most;
+}
+
+/// Whether that much rounding shows. Shapes: rounded to 0.7 % of its edges, a sheet had 0.5 to 0.8
+/// of its motion. Motion, as rounding takes or gives a part of what gravity does in a substep: with
+/// 40 % of that, and 0.05 % of its edges, a block sank by 2 to 17 % too far (docs/stability.md).
+/// Edges have a say there, too: triangles as thin as that keep still.
+bool shows(double rounding, double shortest, const Model& model) {
+    constexpr double kOfShapes = 0.0025, kOfEdges = 0.0002, kOfFall = 0.2;
+    if (rounding >= kOfShapes * shortest) return true;
+    const double fall = length(model.scene.gravity_at(0.0)) * model.h * model.h;
+    return fall > 0.0 && rounding >= kOfFall * fall && rounding >= kOfEdges * shortest;
+}
+
+/// Positions are single precision, counted from a place near the bodies: in a scene that is large,
+/// what is fine is hardly there.
 void warn_of_rounding(const Model& model, Warnings& warnings) {
-    constexpr double kVisible = 0.0025;
-    const double reach = reach_of(model.positions->span());
+    const double reach = reach_of_bodies(model);
     const double rounding =
         0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
     const double shortest = model.edges->shortest();
-    if (shortest <= 0.0 || rounding < kVisible * shortest) return;
+    if (shortest <= 0.0 || !shows(rounding, shortest, model)) return;
     warnings.push_back(fmt::format(
-        "coordinates of {:.3g} m are rounded to {:.1g} m, {:.2g} % of the shortest edge ({:.3g} "
-        "m): shapes that fine and slow motion are not kept; bring the scene nearer to the origin, "
-        "or leave such "
-        "edges out",
+        "coordinates of {:.3g} m, from a place near the bodies, are rounded to {:.1g} m, {:.2g} % "
+        "of the shortest edge ({:.3g} m): shapes that fine and slow motion are not kept; bring "
+        "bodies that are far apart nearer to each other, or leave such edges out",
         reach, rounding, 100.0 * rounding / shortest, shortest));
 }
 
@@ -92,7 +111,7 @@ void warn_of_rounding(const Model& model, Warnings& warnings) {
 
 double energy_inside_obstacles(const Model& model) {
     double energy = 0.0;
-    for (const Obstacle& obstacle : model.scene.obstacles) {
+    for (const Obstacle& obstacle : model.convex_obstacles) {
         for (const BodyRange& body : model.bodies) {
             energy += find_inside(model, body, obstacle).energy;
         }
@@ -102,7 +121,7 @@ double energy_inside_obstacles(const Model& model) {
 
 void warn_of_start(const Model& model, Warnings& warnings) {
     warn_of_rounding(model, warnings);
-    for (const Obstacle& obstacle : model.scene.obstacles) {
+    for (const Obstacle& obstacle : model.convex_obstacles) {
         warn_of_inside(model, obstacle, warnings);
         warn_of_turns(model, obstacle, warnings);
     }

@@ -39,16 +39,17 @@ void SimulationState::put(Model& model, Solver& method) const {
     }
 }
 
-std::vector<float> SimulationState::scene_positions(const Model& model) const {
+std::vector<float> SimulationState::ordered_positions(const Model& model) const {
     return model.in_scene_order(positions);
 }
 
-std::vector<float> SimulationState::scene_velocities(const Model& model) const {
+std::vector<float> SimulationState::ordered_velocities(const Model& model) const {
     return model.in_scene_order(velocities);
 }
 
 std::string SimulationState::hash(const Model& model) const {
-    return state_hash(scene_positions(model), scene_velocities(model));
+    const Vec3 o = model.origin;
+    return state_hash(ordered_positions(model), ordered_velocities(model), {o.x, o.y, o.z});
 }
 
 Checkpoint SimulationState::checkpoint(int frame) const {

@@ -20,10 +20,10 @@ struct SimulationState {
     /// Into the host's copy.
     void put(Model& model, Solver& solver) const;
 
-    /// xyz of all vertices in scene order [m], [m/s].
-    std::vector<float> scene_positions(const Model& model) const;
-    std::vector<float> scene_velocities(const Model& model) const;
-    /// Of the state. May run while the model goes on.
+    /// xyz of all vertices in scene order, counted from the model's origin [m], [m/s].
+    std::vector<float> ordered_positions(const Model& model) const;
+    std::vector<float> ordered_velocities(const Model& model) const;
+    /// Of the state, all its digits. May run while the model goes on.
     std::string hash(const Model& model) const;
 
     Checkpoint checkpoint(int frame) const;

@@ -17,7 +17,8 @@ class Executor;
 class Model;
 class NewtonRefinement;
 
-/// The two ends of one substep: xyz of all vertices in scene order [m], [m/s].
+/// The two ends of one substep: xyz of all vertices in scene order, counted from the model's origin
+/// [m], [m/s].
 struct SubstepEnds {
     std::vector<float> positions, velocities;  ///< at its start
     std::vector<float> reached;                ///< positions at its end
@@ -50,7 +51,8 @@ public:
     /// Nothing where both x~ and x are as near to the minimum as single precision can tell. None
     /// where the numbers have no meaning.
     std::optional<StepEstimate> estimate(const SubstepEnds& ends);
-    /// Where the last estimate's substep would have led to, xyz in scene order [m].
+    /// Where the last estimate's substep would have led to, xyz in scene order, counted from the
+    /// model's origin [m].
     std::vector<float> solved() const;
     /// Of edges there, RMS.
     double solved_strain() const;

@@ -46,6 +46,7 @@ ordered_json to_json(const Inspection& inspection, const Scene& scene) {
                       {"vertices", inspection.vertices},
                       {"triangles", inspection.triangles},
                       {"strips", inspection.strips}};
+    if (const Vec3 o = inspection.origin; !(o == Vec3{})) json["origin"] = {o.x, o.y, o.z};
     json["tasks"] = tasks_json(inspection.tasks);
     for (const char* key : {"kernels", "buffers", "datasets", "left_out"}) {
         json[key] = ordered_json::array();
@@ -91,6 +92,10 @@ std::string to_text(const Inspection& inspection, const Scene& scene) {
         "{}: {} vertices, {} triangles, {} strip{}; {} frames of {} substeps of {} iterations\n\n",
         scene.name, inspection.vertices, inspection.triangles, inspection.strips,
         inspection.strips == 1 ? "" : "s", scene.frames, scene.substeps, scene.solver.iterations);
+    if (const Vec3 o = inspection.origin; !(o == Vec3{})) {
+        text +=
+            fmt::format("positions count from ({}, {}, {}), near the bodies\n\n", o.x, o.y, o.z);
+    }
     text += tasks_text(inspection.tasks);
     text += "\nkernels\n";
     for (const auto& kernel : inspection.kernels) {

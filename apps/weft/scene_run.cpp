@@ -14,6 +14,7 @@
 #include "runtime/io/cache_folder.h"
 #include "simulation/bodies/mesh_files.h"
 #include "simulation/output/any_checkpoint.h"
+#include "simulation/run_description.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/solver/async_iterates.h"
 #include "simulation/solver_choice.h"
@@ -116,9 +117,12 @@ RunDescription SceneRun::describe() const {
     return description;
 }
 
-/// With the meshes, once it is known that they can be read.
+/// With the meshes, once it is known that they can be read, and what a checkpoint's positions count
+/// from.
 void SceneRun::complete_origin() {
     for (const BodyMesh& mesh : mesh_files(scene_)) origin_ += '\n' + file_hash(mesh.path);
+    const std::string counted_from = origin_setting(simulation_->model());
+    if (!counted_from.empty()) origin_ += '\n' + counted_from;
     origin_ = cache_key(origin_ + async_origin());
 }
 
@@ -228,7 +232,7 @@ void SceneRun::append_geometry() {
     if (simulation_->frame() % scene_.output.every != 0) return;
     geometry_->append(simulation_->time(),
                       [model = simulation_->shared_model(), state = simulation_->snapshot()] {
-                          return state->scene_positions(*model);
+                          return model->in_scene(state->ordered_positions(*model));
                       });
 }
 

@@ -151,7 +151,7 @@ void CommonMotion::place(double time) {
     foresees_[0] = 1;
     add_up_gravity();
     look_at_bodies(time);
-    obstacles_.place(model_.scene.obstacles, time, model_.h, substeps_);
+    obstacles_.place(model_.convex_obstacles, time, model_.h, substeps_);
     do {
         look_at_chunks();
         find_neighbours();

@@ -4,6 +4,7 @@
 #include "simulation/bodies/obstacle_mesh.h"
 #include "simulation/bodies/solid_mesh.h"
 #include "simulation/families/builder.h"
+#include "simulation/model/origin.h"
 #include "simulation/topology/adjacency.h"
 
 namespace weft {
@@ -115,6 +116,7 @@ Gathered gather(const Scene& scene, Warnings& warnings) {
         add_obstacle(all, obstacle, warnings);
     }
     for (const auto& family : all.families) family->add(ScenePart{scene, all.bodies, all.rest});
+    count_from(origin_of(all), all);
     std::erase_if(all.families, [](const auto& family) { return family->stencils().count() == 0; });
     return all;
 }

@@ -19,6 +19,7 @@ struct Gathered {
     /// No elements, but what lies together in an obstacle's surface lies together in the order.
     Stencils obstacle_triangles{3, {}};
 
+    Vec3 origin;                  ///< that all positions here count from; see origin.h
     std::vector<Vec3> rest;       ///< [vertices] [m]
     std::vector<double> masses;   ///< [vertices] [kg]
     std::vector<char> held;       ///< [vertices]

@@ -9,6 +9,7 @@
 #include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
 #include "simulation/model/load_paths.h"
+#include "simulation/model/origin.h"
 
 namespace weft {
 
@@ -119,13 +120,30 @@ Scene with_values(const Scene& given, const Gathered& all, Warnings& warnings) {
     return scene;
 }
 
+std::vector<Obstacle> counted_from(Vec3 origin, std::vector<Obstacle> obstacles) {
+    for (Obstacle& obstacle : obstacles) obstacle = counted_from(origin, std::move(obstacle));
+    return obstacles;
+}
+
+std::vector<float> moved_by(Vec3 way, std::vector<float> xyz) {
+    if (way == Vec3{}) return xyz;  // -0 stays -0
+    const double by[3] = {way.x, way.y, way.z};
+    for (std::size_t i = 0; i < xyz.size(); ++i) {
+        xyz[i] = static_cast<float>(static_cast<double>(xyz[i]) + by[i % 3]);
+    }
+    return xyz;
+}
+
 }  // namespace
 
 Model::Model(const Scene& given, Warnings& warnings)
     : Model(given, gather(given, warnings), warnings) {}
 
 Model::Model(const Scene& given, Gathered all, Warnings& warnings)
-    : scene(with_values(given, all, warnings)), h(scene.dt / scene.substeps) {
+    : scene(with_values(given, all, warnings)),
+      h(scene.dt / scene.substeps),
+      origin(all.origin),
+      convex_obstacles(counted_from(origin, scene.obstacles)) {
     bodies = std::move(all.bodies);
     triangles = std::move(all.triangles);
     triangle_body = std::move(all.triangle_body);
@@ -151,8 +169,8 @@ Model::Model(const Scene& given, Gathered all, Warnings& warnings)
         moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
                                                    strips, scene.substeps);
     }
-    if (!scene.obstacles.empty()) {
-        obstacles = std::make_unique<Obstacles>(scene.obstacles, scene.substeps);
+    if (!convex_obstacles.empty()) {
+        obstacles = std::make_unique<Obstacles>(convex_obstacles, scene.substeps);
     }
 }
 
@@ -176,6 +194,14 @@ std::vector<Stencils> Model::stencils() const {
     std::vector<Stencils> kinds;
     for (const auto& family : families) kinds.push_back(family->elements().stencils());
     return kinds;
+}
+
+std::vector<float> Model::in_scene(std::vector<float> xyz) const {
+    return moved_by(origin, std::move(xyz));
+}
+
+std::vector<float> Model::from_origin(std::vector<float> xyz) const {
+    return moved_by(-origin, std::move(xyz));
 }
 
 void Model::place(double time) {

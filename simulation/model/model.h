@@ -31,12 +31,20 @@ public:
     }
     /// The other way.
     int vertex(SceneVertex vertex) const { return strips.rank[index(vertex)]; }
-    /// xyz in scene order, [3 * vertex_count()]. rows  float4 or Vec3 per vertex, in new order
+    /// xyz in scene order, [3 * vertex_count()]. rows  float4 or Vec3 per vertex, in new order.
+    /// Positions count from `origin`, before and after.
     template <class Rows>
     std::vector<float> in_scene_order(const Rows& rows) const;
     /// The other way: xyz of every row; what else a row has stays as it is.
     template <class Rows>
     void from_scene_order(std::span<const float> xyz, Rows&& rows) const;
+    /// A position in the scene's own coordinates [m].
+    Vec3 in_scene(Vec3 position) const { return position + origin; }
+    /// Positions in scene order, as in_scene_order() gives them, in the scene's own coordinates:
+    /// far from the scene's origin they lose digits by that.
+    std::vector<float> in_scene(std::vector<float> xyz) const;
+    /// The other way.
+    std::vector<float> from_origin(std::vector<float> xyz) const;
     /// Fills in what moves by itself during the frame that begins at `time`; the velocities are
     /// those of its start.
     void place(double time);
@@ -63,6 +71,11 @@ public:
 
     const Scene scene;  ///< as given, with substeps and thickness chosen where left out
     const double h;     ///< one substep [s]
+    /// In the scene's own coordinates [m]: the place that all positions of the model count from,
+    /// in buffers and elsewhere; see origin.h. All models of a scene's bodies have the same.
+    const Vec3 origin;
+    /// The scene's, counted from there. (The scene itself is as given.)
+    const std::vector<Obstacle> convex_obstacles;
 
     // As the scene has it (scene order).
     std::vector<BodyRange> bodies;

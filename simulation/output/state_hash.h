@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 
@@ -10,9 +11,11 @@ namespace weft {
 ///
 /// positions, velocities  [3 * vertices] float32 in the scene's own vertex order. What counts is
 /// the bits: -0.0 and 0.0 differ.
+/// origin                 that positions count from
 ///
 /// Definition: the hash of word_hash.h over the words (uint32) of the vertex count, all positions,
-/// all velocities.
-std::string state_hash(std::span<const float> positions, std::span<const float> velocities);
+/// all velocities and, where it is not 0, the origin's float64, each one's low word first.
+std::string state_hash(std::span<const float> positions, std::span<const float> velocities,
+                       const std::array<double, 3>& origin = {});
 
 }  // namespace weft

@@ -54,7 +54,7 @@ FineRun::FineRun(Model& model, int substeps)
       substeps_(substeps),
       h_(model.scene.dt / substeps),
       forces_(static_cast<std::size_t>(model.vertex_count())) {
-    if (model.obstacles) obstacles_ = std::make_unique<Obstacles>(model.scene.obstacles, 1);
+    if (model.obstacles) obstacles_ = std::make_unique<Obstacles>(model.convex_obstacles, 1);
     for (std::size_t v = 0; v < forces_.size(); ++v) {
         const float4& x = (*model.positions)[v];
         const float4& u = (*model.velocities)[v];
@@ -148,7 +148,7 @@ void FineRun::push_out_of_obstacles(std::size_t vertex, Vec3 previous) {
     const float4* placement = obstacles_->placements().data();
     real3 x = to_real3(x_[vertex]);
     bool touched = false;
-    for (const Obstacle& obstacle : model_.scene.obstacles) {
+    for (const Obstacle& obstacle : model_.convex_obstacles) {
         const nearness near = near_obstacle(obstacle.shape, apply(placement, x), placement[6]);
         const real depth = push_depth(placement, near.distance, 1.0);
         if (depth > 0.0) {

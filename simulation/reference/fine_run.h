@@ -24,7 +24,7 @@ public:
 
     /// The next frame. Throws RunError if a vertex is no longer anywhere.
     void advance();
-    /// xyz of all vertices in scene order [m].
+    /// xyz of all vertices in scene order, counted from the model's origin [m].
     std::vector<float> positions() const;
 
 private:

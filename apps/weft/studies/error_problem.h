@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// A state as the simulation gives it: xyz in scene order.
+/// A state as the simulation gives it: xyz in scene order, counted from the model's origin.
 struct State {
     std::vector<float> positions, velocities;
 };

@@ -10,6 +10,7 @@
 #include "runtime/error.h"
 #include "simulation/output/any_checkpoint.h"
 #include "simulation/output/geometry_reader.h"
+#include "simulation/run_description.h"
 
 namespace weft {
 
@@ -52,12 +53,19 @@ void check_same_scene(const fs::path& path, const Model& model, const Checkpoint
 
 StartState from_checkpoint(const fs::path& path, Scene scene) {
     const Checkpoint checkpoint = read_any_checkpoint(path);
+    std::string origin;
     for (const auto& [name, value] : settings_of(checkpoint, path)) {
         if (name == "method") scene.solver.method = method_named(value);
+        if (name == "origin") origin = value;
     }
     Warnings said_already;
     const Model model(scene, said_already);
     check_same_scene(path, model, checkpoint);
+    if (origin != origin_setting(model)) {
+        refuse(path,
+               "is the checkpoint of another scene, or of a version of weft that counts "
+               "positions from another place");
+    }
     return {{model.in_scene_order(read_vectors(checkpoint.buffers[0])),
              model.in_scene_order(read_vectors(checkpoint.buffers[1]))},
             checkpoint.frame};
@@ -77,12 +85,13 @@ StartState from_geometry(const fs::path& path, const Scene& scene, std::optional
     const double last = file.time(file.steps() - 1) / scene.dt;
     StartState start{{}, wanted.value_or(static_cast<int>(std::lround(last)))};
     const std::size_t step = step_at(file, path, scene.dt, start.frame);
-    start.state.positions = file.positions(step);
+    Warnings said_already;
+    start.state.positions = Model(scene, said_already).from_origin(file.positions(step));
     start.state.velocities.resize(start.state.positions.size());
     if (step == 0) return start;
-    const std::vector<float> before = file.positions(step - 1);
+    const std::vector<float> now = file.positions(step), before = file.positions(step - 1);
     const auto per_second = static_cast<float>(1.0 / (file.time(step) - file.time(step - 1)));
-    std::ranges::transform(start.state.positions, before, start.state.velocities.begin(),
+    std::ranges::transform(now, before, start.state.velocities.begin(),
                            [&](float to, float from) { return (to - from) * per_second; });
     return start;
 }
