@@ -48,7 +48,7 @@ public:
     Corners corners(int t) const {
         return {surface().corner(t, 0), surface().corner(t, 1), surface().corner(t, 2)};
     }
-    int body(int t) const { return model_.triangle_body[static_cast<std::size_t>(t)]; }
+    int body(int t) const { return static_cast<int>(model_.body_of_triangle(t)); }
     Vec3 position(int vertex) const { return positions_[static_cast<std::size_t>(vertex)]; }
     int knot(int vertex) const { return knots_[static_cast<std::size_t>(vertex)]; }
     bool is_tied(int vertex) const { return tied_[static_cast<std::size_t>(vertex)] != 0; }
@@ -245,11 +245,7 @@ std::string body_name(const BodyRange& body) {
 
 class Words {
 public:
-    explicit Words(const Model& model) : model_(model), first_(model.bodies.size(), -1) {
-        for (std::size_t t = model.triangles.size(); t-- > 0;) {
-            first_[static_cast<std::size_t>(model.triangle_body[t])] = static_cast<int>(t);
-        }
-    }
+    explicit Words(const Model& model) : model_(model) {}
 
     /// "cloth 'a' triangle 3 and cloth 'b' triangle 5"
     std::string pair(const TrianglePair& pair) const {
@@ -278,13 +274,11 @@ public:
 
 private:
     std::string triangle(int t) const {
-        const auto body =
-            static_cast<std::size_t>(model_.triangle_body[static_cast<std::size_t>(t)]);
-        return fmt::format("{} triangle {}", body_name(model_.bodies[body]), t - first_[body]);
+        const BodyRange& body = model_.bodies[model_.body_of_triangle(t)];
+        return fmt::format("{} triangle {}", body_name(body), t - body.first_triangle);
     }
 
     const Model& model_;
-    std::vector<int> first_;  ///< [bodies] triangle
 };
 
 std::vector<std::string> what_crosses(const StartContacts& contacts, const Words& words) {

@@ -38,9 +38,9 @@ bool touches_opencl(const std::string& devices) {
 
 std::vector<GeometryBody> geometry_bodies(const Model& model) {
     std::vector<GeometryBody> bodies;
-    for (const BodyRange& body : model.bodies) bodies.push_back({body.name, 0});
-    for (const int body : model.triangle_body)
-        ++bodies[static_cast<std::size_t>(body)].triangle_count;
+    for (const BodyRange& body : model.bodies) {
+        bodies.push_back({body.name, static_cast<std::uint32_t>(body.triangle_count)});
+    }
     return bodies;
 }
 

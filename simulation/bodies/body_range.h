@@ -13,7 +13,7 @@ enum class SceneVertex : int {};
 
 constexpr std::size_t index(SceneVertex vertex) { return static_cast<std::size_t>(vertex); }
 
-/// A range of the scene's vertices that belongs to one cloth or solid.
+/// A range of the scene's vertices, and one of its triangles, that belongs to one cloth or solid.
 struct BodyRange {
     std::string name;
     std::string kind;  ///< "cloth", "solid" or "obstacle"
@@ -22,6 +22,8 @@ struct BodyRange {
     NamedVertices parts{};  ///< by the body's own numbers
     /// [vertices of its file] the body's own numbers, where some are welded; empty: as in the file
     std::vector<int> welded{};
+    int first_triangle = 0;
+    int triangle_count = 0;
 
     /// A vertex by the body's own number.
     SceneVertex vertex(int own) const { return SceneVertex{first_vertex + own}; }

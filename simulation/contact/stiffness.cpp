@@ -56,7 +56,11 @@ SurfaceMesh surface_of(const Model& model, double thickness) {
         auto& triangle = mesh.triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) triangle[k] = rank[static_cast<std::size_t>(t[k])];
     }
-    mesh.triangle_body = model.triangle_body;
+    for (std::size_t body = 0; body < model.bodies.size(); ++body) {
+        mesh.triangle_body.insert(mesh.triangle_body.end(),
+                                  static_cast<std::size_t>(model.bodies[body].triangle_count),
+                                  static_cast<int>(body));
+    }
     mesh.rest = rest_of(model);
     for (const float4& x : model.positions->span()) mesh.held.push_back(x.w > 0.0f ? 0 : 1);
     mesh.knots = knots_of(model, thickness);

@@ -5,25 +5,29 @@
 #include <string>
 #include <vector>
 
-#include "simulation/families/elements.h"
+#include "simulation/families/couplings.h"
 #include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
-#include "simulation/topology/grouped.h"
 
 namespace weft {
 
 /// Which pairs of corners contribute to blocks of the Hessian, each block one of two vertices, or
 /// of two groups of them; see kernels/newton/blocks.h.
 struct BlockList {
-    struct Contribution {
-        int element = 0;
-        int j = 0;  ///< corner of the block's row
-        int k = 0;  ///< and of its column
+    struct Range {
+        int begin = 0;
+        int count = 0;
     };
-    Grouped<Contribution> blocks;
-    std::vector<int> segment_begin;  ///< of the blocks, strip by strip
+    std::span<const Coupling> contributions;  ///< somebody else's, of all blocks
+    std::vector<Range> ranges;                ///< [blocks] those of each
+    std::vector<int> segment_begin;           ///< of the blocks, strip by strip
 
-    int count() const { return blocks.count(); }
+    int count() const { return static_cast<int>(ranges.size()); }
+    std::span<const Coupling> operator[](int block) const {
+        const Range& range = ranges[static_cast<std::size_t>(block)];
+        return contributions.subspan(static_cast<std::size_t>(range.begin),
+                                     static_cast<std::size_t>(range.count));
+    }
     /// Of the rows.
     std::vector<int> lengths() const;
 };
@@ -46,15 +50,14 @@ public:
     using Numbers = std::function<FewNumbers(int element, const std::array<int, 4>& corners)>;
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
+    /// All tables are: what only filling needs takes no more memory.
+    void filled() { couplings_ = {}; }
 
 private:
-    struct Entry {
-        int element = -1;  ///< -1: fills a row up
-        std::array<int, 4> corners{};
-    };
+    int arity_;
     SlicedRows rows_;
     Buffer<int> corners_;
-    std::vector<Entry> entries_;
+    std::vector<Coupling> couplings_;  ///< [entries] element -1: fills a row up; empty: filled()
 };
 
 }  // namespace weft

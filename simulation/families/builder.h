@@ -71,13 +71,20 @@ public:
     virtual std::vector<Absence> absences(const Scene& scene, bool exists) const = 0;
 
 protected:
+    /// Room for so many more elements, no more. Once per body, not for each element.
+    void reserve(std::size_t count) {
+        stencils_.vertices.reserve(stencils_.vertices.size() +
+                                   count * static_cast<std::size_t>(stencils_.arity));
+    }
     template <std::size_t arity>
     void append(const std::vector<std::array<int, arity>>& elements, int first_vertex) {
+        reserve(elements.size());
         for (const auto& element : elements) {
             for (const int vertex : element) stencils_.vertices.push_back(vertex + first_vertex);
         }
     }
     void append(const Stencils& elements, int first_vertex) {
+        reserve(static_cast<std::size_t>(elements.count()));
         for (const int vertex : elements.vertices) {
             stencils_.vertices.push_back(vertex + first_vertex);
         }

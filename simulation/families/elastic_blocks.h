@@ -34,6 +34,7 @@ public:
             }
             return numbers;
         });
+        tables_.filled();
     }
 
     std::vector<Launch> couple(const BlockTarget& t) override {

@@ -36,6 +36,7 @@ public:
             }
             return numbers;
         });
+        rows_.filled();
     }
 
     Launch gather(const DerivativeTarget& t) override { return launch_over_rows(Kernel{}, t); }

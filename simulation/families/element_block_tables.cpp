@@ -24,7 +24,7 @@ ElementBlockTables::Pieces::Pieces(const BlockList& list) {
     for (std::size_t s = 0; s + 1 < list.segment_begin.size(); ++s) {
         std::vector<int> own;
         for (int block = list.segment_begin[s]; block < list.segment_begin[s + 1]; ++block) {
-            for (const auto& c : list.blocks[block]) own.push_back(c.element);
+            for (const Coupling& c : list[block]) own.push_back(c.element);
         }
         std::ranges::sort(own);
         elements.insert(elements.end(), own.begin(), std::ranges::unique(own).begin());
@@ -73,7 +73,7 @@ void ElementBlockTables::fill_rows(const BlockList& list, int arity) {
         const auto begin = list.segment_begin.begin() + strip;
         for (int block = begin[0]; block < begin[1]; ++block) {
             int k = 0;
-            for (const auto& c : list.blocks[block]) {
+            for (const Coupling& c : list[block]) {
                 const std::size_t entry = rows_.entry(block, k++);
                 const int pair = pair_of(std::min(c.j, c.k), std::max(c.j, c.k), arity);
                 row_places_[entry] = per_piece_ * pieces_.of(strip, c.element) + kPerBlock * pair;

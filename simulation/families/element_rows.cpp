@@ -1,5 +1,7 @@
 #include "simulation/families/element_rows.h"
 
+#include "scheduler/assert.h"
+
 namespace weft {
 
 ElementRows::Corners::Corners(const Elements& elements, const VertexItems& items)
@@ -42,6 +44,7 @@ ElementRows::ElementRows(const std::string& name, const Elements& elements,
 }
 
 void ElementRows::fill(Buffer<float>& table, const Numbers& numbers) const {
+    WEFT_ASSERT(corners_.size() == entries());
     for (std::size_t entry = 0; entry < entries(); ++entry) {
         const Corner& at = corners_[entry];
         if (at.element < 0) continue;

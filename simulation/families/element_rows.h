@@ -29,6 +29,8 @@ public:
     using Numbers = std::function<FewNumbers(int element, int corner)>;
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
+    /// All tables are: what only filling needs takes no more memory.
+    void filled() { corners_ = {}; }
 
 private:
     /// A corner of an element, seen from the vertex that it is at.
@@ -48,7 +50,7 @@ private:
 
     SlicedRows rows_;
     Buffer<int> others_;
-    std::vector<Corner> corners_;  ///< [entries] element -1: fills a row up
+    std::vector<Corner> corners_;  ///< [entries] element -1: fills a row up; empty: filled()
 };
 
 }  // namespace weft

@@ -16,9 +16,6 @@
 /// folder knows it by name: element_families.h has the list.
 namespace weft {
 
-/// The most corners that an element has.
-inline constexpr int kMaxCorners = 4;
-
 struct FamilyNames {
     std::string name;    ///< of its folder, its buffers and its files of kernels: "hinges"
     std::string title;   ///< in messages: "bending"
@@ -132,7 +129,7 @@ public:
     const Elements& elements() const { return elements_; }
     int count() const { return elements_.count(); }
     /// The vertices of an element, in the new order.
-    std::span<const int> corners(int element) const { return elements_.vertices_of(element); }
+    ElementCorners corners(int element) const { return elements_.vertices_of(element); }
 
     // ---- XPBD ----
 

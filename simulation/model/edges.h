@@ -15,6 +15,20 @@ struct Strain {
     double most = 0.0;
 };
 
+/// Of edges [m]: in single precision where that has them all, as of springs.
+class RestLengths {
+public:
+    explicit RestLengths(std::span<const Edge> edges);
+
+    double operator[](std::size_t edge) const {
+        return exact_.empty() ? static_cast<double>(single_[edge]) : exact_[edge];
+    }
+
+private:
+    std::vector<float> single_;
+    std::vector<double> exact_;  ///< empty: single_ has them
+};
+
 /// The edges of all cloths and solids, each once, whatever elements lie along it. One measure of
 /// strain for all of them: in double precision and one order, so the same for the same bits.
 class Edges {
@@ -28,10 +42,21 @@ public:
                                                const Strain& strain, double most) const;
     /// At rest [m]; 0: there is none.
     double shortest() const;
-    int count() const { return static_cast<int>(edges_.size()); }
+    int count() const { return static_cast<int>(ends_.size()); }
 
 private:
-    std::vector<Edge> edges_;
+    struct Ends {
+        int a, b;  ///< vertices, new order
+    };
+    struct BlockStrain;
+    explicit Edges(std::span<const Edge> edges);
+    double length_of(std::size_t edge, std::span<const float4> positions) const;
+    double strain_of(std::size_t edge, std::span<const float4> positions) const;
+    BlockStrain strain_of_block(std::size_t begin, std::size_t end,
+                                std::span<const float4> positions) const;
+
+    std::vector<Ends> ends_;  ///< [edges]
+    RestLengths rests_;
 };
 
 }  // namespace weft

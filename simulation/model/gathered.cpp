@@ -36,10 +36,13 @@ int add_body(Gathered& all, const std::string& kind, const Body& body, const Mes
     return first;
 }
 
+/// That of the last body.
 void add_surface(Gathered& all, const std::vector<std::array<int, 3>>& triangles, int first) {
+    all.bodies.back().first_triangle = static_cast<int>(all.triangles.size());
+    all.bodies.back().triangle_count = static_cast<int>(triangles.size());
+    all.triangles.reserve(all.triangles.size() + triangles.size());
     for (const auto& t : triangles) {
         all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-        all.triangle_body.push_back(static_cast<int>(all.bodies.size()) - 1);
     }
 }
 

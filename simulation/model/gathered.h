@@ -15,7 +15,6 @@ struct Gathered {
     std::vector<BodyRange> bodies;
     /// Of cloths all, of solids their surface; what geometry files show.
     std::vector<std::array<int, 3>> triangles;
-    std::vector<int> triangle_body;  ///< [triangles]
     /// No elements, but what lies together in an obstacle's surface lies together in the order.
     Stencils obstacle_triangles{3, {}};
 

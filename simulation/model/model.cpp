@@ -44,6 +44,14 @@ std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> group
     return groups;
 }
 
+/// Whose vertices the strips go by.
+std::vector<Stencils> kinds_of(const Gathered& all) {
+    std::vector<Stencils> kinds;
+    for (const auto& family : all.families) kinds.push_back(family->stencils());
+    if (all.obstacle_triangles.count() > 0) kinds.push_back(all.obstacle_triangles);
+    return kinds;
+}
+
 double strongest_gravity(const Scene& scene) {
     constexpr double kLeast = 1.0;  // [m/s^2] something moves in every scene
     double strongest =
@@ -146,23 +154,21 @@ Model::Model(const Scene& given, Gathered all, Warnings& warnings)
       convex_obstacles(counted_from(origin, scene.obstacles)) {
     bodies = std::move(all.bodies);
     triangles = std::move(all.triangles);
-    triangle_body = std::move(all.triangle_body);
     damped = all.is_damped;
 
     StripOptions options;
     options.extra_levels = is_vertex_wise(scene.solver.method) ? 1 : 0;
-    std::vector<Stencils> kinds;
-    for (const auto& family : all.families) kinds.push_back(family->stencils());
-    if (all.obstacle_triangles.count() > 0) kinds.push_back(all.obstacle_triangles);
-    strips = make_strips(static_cast<int>(all.rest.size()), kinds, options);
+    strips = make_strips(static_cast<int>(all.rest.size()), kinds_of(all), options);
     strip_begin_ = std::make_unique<Buffer<int>>("strips", strips.begin.size());
     std::copy(strips.begin.begin(), strips.begin.end(), strip_begin_->data());
     vertices_ = {strip_begin_.get(), 0, 1, strips.count()};
 
     make_vertices(all);
-    for (const auto& family : all.families) {
-        families.push_back(family->build(strips, all.rest));
+    for (auto& builder : all.families) {
+        families.push_back(builder->build(strips, all.rest));
         families.back()->reserve(scene.substeps);
+        families.back()->elements().forget_originals();
+        builder.reset();  // of large scenes, they have much memory
     }
     edges = std::make_unique<Edges>(families);
     if (!all.moving.empty()) {
@@ -202,6 +208,11 @@ std::vector<float> Model::in_scene(std::vector<float> xyz) const {
 
 std::vector<float> Model::from_origin(std::vector<float> xyz) const {
     return moved_by(-origin, std::move(xyz));
+}
+
+std::size_t Model::body_of_triangle(int triangle) const {
+    const auto behind = std::ranges::upper_bound(bodies, triangle, {}, &BodyRange::first_triangle);
+    return static_cast<std::size_t>(behind - bodies.begin()) - 1;
 }
 
 void Model::place(double time) {

@@ -54,6 +54,8 @@ public:
     /// The buffers that place() writes.
     std::vector<BufferStorage*> placed_buffers();
 
+    /// Whose triangle it is: a number of `bodies`.
+    std::size_t body_of_triangle(int triangle) const;
     /// All elements, in new vertices: who touches whom.
     std::vector<Stencils> stencils() const;
     /// The family of that class; null: the scene has no elements of it.
@@ -80,7 +82,6 @@ public:
     // As the scene has it (scene order).
     std::vector<BodyRange> bodies;
     std::vector<std::array<int, 3>> triangles;  ///< of cloths all, of solids their surface
-    std::vector<int> triangle_body;             ///< [triangles]
 
     // On the devices (new order).
     Strips strips;

@@ -93,8 +93,10 @@ void IncrementalPotential::make_pattern() {
     std::vector<char> free(predicted_.size());
     for (std::size_t v = 0; v < free.size(); ++v) free[v] = is_free(static_cast<int>(v));
     std::vector<BlockMatrix::Group> groups;
-    for (const auto& family : families_) {
-        for (int e = 0; e < family->count(); ++e) groups.push_back({family->corners(e)});
+    std::vector<Stencils> kinds;
+    for (const auto& family : families_) kinds.push_back(family->elements().stencils());
+    for (const Stencils& kind : kinds) {
+        for (int e = 0; e < kind.count(); ++e) groups.push_back({kind[e]});
     }
     for (const FrozenContact& contact : contacts_) groups.push_back({contact.corners});
     exact_ = negative_ = hessian_ = BlockMatrix(free, groups);

@@ -29,6 +29,8 @@ public:
     std::span<const T> operator[](int group) const {
         return {values_.data() + begin_[at(group)], values_.data() + begin_[at(group) + 1]};
     }
+    /// Group by group.
+    std::span<const T> values() const { return values_; }
 
 private:
     static std::size_t at(int group) { return static_cast<std::size_t>(group); }

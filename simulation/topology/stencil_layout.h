@@ -10,7 +10,7 @@ namespace weft {
 
 /// Elements that may become stencils, and in which order they are tried.
 struct StencilCandidates {
-    const Stencils& elements;  ///< in new vertices
+    Stencils elements;  ///< in new vertices
     std::vector<int> order;
 };
 

@@ -12,7 +12,7 @@ public:
         : weights_("curved_hinges.block_weights", static_cast<std::size_t>(list.count())) {
         for (int block = 0; block < list.count(); ++block) {
             double sum = 0.0;
-            for (const auto& c : list.blocks[block]) {
+            for (const Coupling& c : list[block]) {
                 sum -= hinges.weight(c.element, c.j) * hinges.weight(c.element, c.k);
             }
             weights_[block] = static_cast<float>(sum);
@@ -42,6 +42,7 @@ public:
                               hinges.pair_weight(hinge, at[1], at[2]),
                               hinges.pair_weight(hinge, at[1], at[3])};
         });
+        tables_.filled();
     }
 
     std::vector<Launch> couple(const BlockTarget& t) override {

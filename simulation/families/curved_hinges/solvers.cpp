@@ -15,6 +15,7 @@ public:
         rows_.fill(weights_, [&](int hinge, int corner) {
             return FewNumbers(hinges.seen_from(hinge, corner));
         });
+        rows_.filled();
     }
 
     Launch gather(const DerivativeTarget& t) override {

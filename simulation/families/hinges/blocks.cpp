@@ -12,7 +12,7 @@ public:
         : weights_("hinges.block_weights", static_cast<std::size_t>(list.count())) {
         for (int block = 0; block < list.count(); ++block) {
             double sum = 0.0;
-            for (const auto& c : list.blocks[block]) {
+            for (const Coupling& c : list[block]) {
                 sum -= hinges.weight(c.element, c.j) * hinges.weight(c.element, c.k);
             }
             weights_[static_cast<std::size_t>(block)] = static_cast<float>(sum);

@@ -16,13 +16,17 @@ public:
     void add(const ClothPart& part) override {
         if (!part.cloth.bend) return;
         const double root = std::sqrt(part.cloth.bend->stiffness);
+        const auto most = static_cast<std::size_t>(part.adjacency.hinges.count());
+        reserve(most);
+        weights_.reserve(weights_.size() + most);
         for (int h = 0; h < part.adjacency.hinges.count(); ++h) {
             const auto vertices = part.adjacency.hinges[h];
             const HingeCorners corners = part.rest.hinge(vertices);
             if (!part.cloth.bend->rest_is_flat && !half_fold(corners).is_flat()) continue;
             append(vertices, part.first_vertex);
-            weights_.push_back(hinge_weights(corners));
-            for (double& weight : weights_.back()) weight *= root;
+            std::ranges::transform(
+                hinge_weights(corners), weights_.emplace_back().begin(),
+                [&](double weight) { return static_cast<float>(weight * root); });
         }
     }
 
@@ -40,7 +44,8 @@ public:
     }
 
 private:
-    std::vector<std::array<double, 4>> weights_;  ///< [hinges] [sqrt(J) / m]
+    /// [hinges] [sqrt(J) / m] as the table will have them
+    std::vector<std::array<float, 4>> weights_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ class Hinges final : public ElementFamily {
 public:
     /// weights: per hinge, as given; sqrt(stiffness) included [sqrt(J) / m]
     Hinges(const FamilyNames& names, const Stencils& hinges, const Strips& strips,
-           std::span<const std::array<double, 4>> weights);
+           std::span<const std::array<float, 4>> weights);
 
     /// Of the hinge's corner [sqrt(J) / m].
     double weight(int hinge, int corner) const {

@@ -13,6 +13,7 @@ public:
         tables_.fill(material_, [&](int spring, const std::array<int, 4>&) {
             return FewNumbers{springs.rest_length(spring), springs.stiffness(spring)};
         });
+        tables_.filled();
     }
 
     std::vector<Launch> couple(const BlockTarget& t) override {

@@ -14,10 +14,11 @@ public:
     void add(const ClothPart& part) override {
         if (part.cloth.stretch.stiffness <= 0.0) return;
         append(part.adjacency.edges, part.first_vertex);
-        fill(stiffness_, part.cloth.stretch.stiffness);
+        fill(compliances_, static_cast<float>(1.0 / part.cloth.stretch.stiffness));
+        lengths_.reserve(compliances_.size());
         for (int e = 0; e < part.adjacency.edges.count(); ++e) {
             const auto ends = part.adjacency.edges[e];
-            lengths_.push_back(part.rest.length_of(ends[0], ends[1]));
+            lengths_.push_back(static_cast<float>(part.rest.length_of(ends[0], ends[1])));
         }
         edge_count_ = stencils().count();
     }
@@ -26,17 +27,18 @@ public:
         for (const Attachment& attachment : part.scene.attachments) {
             const auto ties = find_ties(attachment, part.scene, part.bodies, part.rest);
             append(ties, 0);
-            fill(stiffness_, attachment.stiffness);
+            fill(compliances_, static_cast<float>(1.0 / attachment.stiffness));
             for (const auto& [a, b] : ties) {
-                lengths_.push_back(length(part.rest[static_cast<std::size_t>(a)] -
-                                          part.rest[static_cast<std::size_t>(b)]));
+                lengths_.push_back(
+                    static_cast<float>(length(part.rest[static_cast<std::size_t>(a)] -
+                                              part.rest[static_cast<std::size_t>(b)])));
             }
         }
     }
 
     std::unique_ptr<ElementFamily> build(const Strips& strips,
                                          std::span<const Vec3> /*rest*/) const override {
-        return std::make_unique<Springs>(names(), stencils(), strips, lengths_, stiffness_,
+        return std::make_unique<Springs>(names(), stencils(), strips, lengths_, compliances_,
                                          edge_count_);
     }
 
@@ -52,8 +54,9 @@ public:
     }
 
 private:
-    std::vector<double> lengths_;    ///< [springs] at rest [m]
-    std::vector<double> stiffness_;  ///< [springs] [N/m]
+    // As the tables will have them: there are millions.
+    std::vector<float> lengths_;      ///< [springs] at rest [m]
+    std::vector<float> compliances_;  ///< [springs] [m/N]
     int edge_count_ = 0;
 };
 

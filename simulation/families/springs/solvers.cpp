@@ -17,6 +17,7 @@ public:
         rows_.fill(material_, [&](int spring, int) {
             return FewNumbers{springs.rest_length(spring), springs.stiffness(spring)};
         });
+        rows_.filled();
     }
 
     Launch gather(const DerivativeTarget& t) override {

@@ -3,26 +3,27 @@
 namespace weft {
 
 Springs::Springs(const FamilyNames& names, const Stencils& springs, const Strips& strips,
-                 std::span<const double> lengths, std::span<const double> stiffness, int edges)
+                 std::span<const float> lengths, std::span<const float> compliances, int edges)
     : ElementFamily(names, springs, strips),
-      material("springs.material", 2 * static_cast<std::size_t>(springs.count())),
-      edge_count_(edges) {
+      material("springs.material", 2 * static_cast<std::size_t>(springs.count())) {
     const auto count = static_cast<std::size_t>(springs.count());
     for (std::size_t s = 0; s < count; ++s) {
-        const auto original = static_cast<std::size_t>(elements().original(static_cast<int>(s)));
-        material[s] = static_cast<float>(lengths[original]);
-        material[count + s] = static_cast<float>(1.0 / stiffness[original]);
+        const int original = elements().original(static_cast<int>(s));
+        material[s] = lengths[static_cast<std::size_t>(original)];
+        material[count + s] = compliances[static_cast<std::size_t>(original)];
+        if (original >= edges) attachments_.push_back(static_cast<int>(s));
     }
 }
 
 std::vector<std::string> Springs::parts() const {
     std::vector<std::string> list;
-    if (edge_count_ > 0) list.emplace_back("springs");
-    if (edge_count_ < count()) list.emplace_back("attachments");
+    if (std::ssize(attachments_) < count()) list.emplace_back("springs");
+    if (!attachments_.empty()) list.emplace_back("attachments");
     return list;
 }
 
 void Springs::add_edges(std::vector<Edge>& edges) const {
+    edges.reserve(edges.size() + static_cast<std::size_t>(count()));
     for (int s = 0; s < count(); ++s) {
         if (is_edge(s)) edges.push_back({corners(s)[0], corners(s)[1], rest_length(s)});
     }

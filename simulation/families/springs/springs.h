@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "simulation/families/family.h"
 
 namespace weft {
@@ -8,12 +11,12 @@ namespace weft {
 /// other.
 class Springs final : public ElementFamily {
 public:
-    /// lengths: at rest, per spring, as given [m]; stiffness: likewise [N/m]; edges: how many
+    /// lengths: at rest, per spring, as given [m]; compliances: likewise [m/N]; edges: how many
     /// springs as given are edges; the rest are attachments
     Springs(const FamilyNames& names, const Stencils& springs, const Strips& strips,
-            std::span<const double> lengths, std::span<const double> stiffness, int edges);
+            std::span<const float> lengths, std::span<const float> compliances, int edges);
 
-    bool is_edge(int spring) const { return elements().original(spring) < edge_count_; }
+    bool is_edge(int spring) const { return !std::ranges::binary_search(attachments_, spring); }
     double rest_length(int spring) const {
         return static_cast<double>(material[static_cast<std::size_t>(spring)]);
     }
@@ -41,7 +44,7 @@ public:
     Buffer<float> material;  ///< [2 * count] column-major: rest length [m], compliance 1/k [m/N]
 
 private:
-    int edge_count_;
+    std::vector<int> attachments_;  ///< ascending
 };
 
 }  // namespace weft

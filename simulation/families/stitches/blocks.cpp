@@ -15,6 +15,7 @@ public:
             return FewNumbers{stitches.start(stitch), stitches.stiffness(stitch),
                               stitches.rate(stitch)};
         });
+        tables_.filled();
     }
 
     std::vector<Launch> couple(const BlockTarget& t) override {

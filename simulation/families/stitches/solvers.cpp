@@ -17,6 +17,7 @@ public:
             return FewNumbers{stitches.start(stitch), stitches.stiffness(stitch),
                               stitches.rate(stitch)};
         });
+        rows_.filled();
     }
 
     Launch gather(const DerivativeTarget& t) override {

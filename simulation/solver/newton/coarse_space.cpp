@@ -139,8 +139,6 @@ void CoarseSpace::fill_places(const Model& model) {
 void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pairs) {
     const auto& of = aggregates_.of;
     const auto key = [](const Pair& p) { return std::pair(p.a, p.b); };
-    BlockList list;
-    list.segment_begin.assign(strip_pairs_.span().begin(), strip_pairs_.span().end());
     const auto put_element = [&](int e, const auto& put) {
         const auto corners = family.corners(e);
         for (std::size_t j = 0; j < corners.size(); ++j) {
@@ -152,13 +150,22 @@ void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pai
                 const std::pair wanted(a, is_tied ? a : b);
                 const auto pair = std::ranges::lower_bound(pairs, wanted, {}, key);
                 put(static_cast<int>(pair - pairs.begin()),
-                    BlockList::Contribution{e, static_cast<int>(j), static_cast<int>(k)});
+                    Coupling{e, static_cast<std::int16_t>(j), static_cast<std::int16_t>(k)});
             }
         }
     };
-    list.blocks = {static_cast<int>(pairs.size()), [&](const auto& put) {
-                       for (int e = 0; e < family.count(); ++e) put_element(e, put);
-                   }};
+    const Grouped<Coupling> blocks(static_cast<int>(pairs.size()), [&](const auto& put) {
+        for (int e = 0; e < family.count(); ++e) put_element(e, put);
+    });
+    BlockList list;
+    list.contributions = blocks.values();
+    list.segment_begin.assign(strip_pairs_.span().begin(), strip_pairs_.span().end());
+    int begin = 0;
+    for (int block = 0; block < blocks.count(); ++block) {
+        const auto count = static_cast<int>(blocks[block].size());
+        list.ranges.push_back({begin, count});
+        begin += count;
+    }
     families_.push_back(family.make_block_rows(list));
 }
 

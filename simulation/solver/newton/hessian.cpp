@@ -1,9 +1,11 @@
 #include "simulation/solver/newton/hessian.h"
 
 #include <algorithm>
-#include <utility>
+#include <limits>
+#include <string>
 
 #include "kernels/newton/blocks.h"
+#include "runtime/error.h"
 #include "simulation/solver/newton/accesses.h"
 
 namespace weft {
@@ -11,49 +13,22 @@ namespace weft {
 namespace {
 
 /// How many others each row has.
-template <class Rows>
-std::vector<int> lengths_of(const Rows& rows) {
+std::vector<int> lengths_of(const Couplings& couplings) {
     std::vector<int> lengths;
-    for (int v = 0; v < rows.count(); ++v) {
-        const auto row = rows[v];
-        int length = 0;
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            if (c == 0 || row[c].other != row[c - 1].other) ++length;
-        }
-        lengths.push_back(length);
-    }
+    for (int v = 0; v < couplings.vertex_count(); ++v) lengths.push_back(couplings.other_count(v));
     return lengths;
 }
 
 }  // namespace
 
-/// By ascending neighbour, and per neighbour by ascending element.
-FamilyHessian::Rows FamilyHessian::rows_of(const ElementFamily& family, int vertex_count) {
-    Rows rows(vertex_count, [&](const auto& put) {
-        for (int e = 0; e < family.count(); ++e) {
-            const auto corners = family.corners(e);
-            for (std::size_t j = 0; j < corners.size(); ++j) {
-                for (std::size_t k = 0; k < corners.size(); ++k) {
-                    if (k == j) continue;
-                    put(corners[j],
-                        Coupling{corners[k], {e, static_cast<int>(j), static_cast<int>(k)}});
-                }
-            }
-        }
-    });
-    const auto key = [](const Coupling& c) { return std::pair(c.other, c.from.element); };
-    for (int v = 0; v < vertex_count; ++v) std::ranges::sort(rows[v], {}, key);
-    return rows;
-}
-
 FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model)
-    : FamilyHessian(family, items, model, rows_of(family, model.vertex_count())) {}
+    : FamilyHessian(family, items, model, Couplings(family.elements(), model.vertex_count())) {}
 
 FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
-                             const Rows& rows)
+                             const Couplings& couplings)
     : vertex_count_(model.vertex_count()),
       columns_(family.block_columns()),
-      rows_(family.names().name + ".blocks.rows", items.segment_begin(), lengths_of(rows)),
+      rows_(family.names().name + ".blocks.rows", items.segment_begin(), lengths_of(couplings)),
       others_(family.names().name + ".blocks.others",
               static_cast<std::size_t>(rows_.entry_count())),
       entry_begin_(family.names().name + ".blocks.strips", model.strips.begin.size()),
@@ -61,24 +36,28 @@ FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, co
               others_.count() * static_cast<std::size_t>(columns_)),
       vertices_(model.vertices()),
       entries_{&entry_begin_, 0, 1, model.strips.count()},
-      contributions_(family.make_block_rows(place(rows, model.strips))) {}
+      contributions_(family.make_block_rows(place(couplings, model.strips))) {}
 
 /// Fills the tables of rows, and lists what contributes to each entry.
-BlockList FamilyHessian::place(const Rows& rows, const Strips& strips) {
+BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips) {
+    constexpr std::size_t kMost = std::numeric_limits<int>::max();
     BlockList list;
-    list.blocks = {
-        rows_.entry_count(), [&](const auto& put) {
-            for (int v = 0; v < vertex_count_; ++v) {
-                auto left = rows[v];
-                for (int k = 0; k < rows_.length(v); ++k) {
-                    const std::size_t entry = rows_.entry(v, k);
-                    const int other = others_[entry] = left.empty() ? v : left.front().other;
-                    for (; !left.empty() && left.front().other == other; left = left.subspan(1)) {
-                        put(static_cast<int>(entry), left.front().from);
-                    }
-                }
-            }
-        }};
+    list.contributions = couplings.all();
+    if (list.contributions.size() > kMost) {
+        throw RunError("the Hessian would need more than " + std::to_string(kMost) + " terms");
+    }
+    list.ranges.resize(others_.count());
+    int begin = 0;
+    for (int v = 0; v < vertex_count_; ++v) {
+        int k = 0;
+        couplings.for_each_other(v, [&](int other, std::span<const Coupling> own) {
+            const std::size_t entry = rows_.entry(v, k++);
+            others_[entry] = other;
+            list.ranges[entry] = {begin, static_cast<int>(own.size())};
+            begin += list.ranges[entry].count;
+        });
+        for (; k < rows_.length(v); ++k) others_[rows_.entry(v, k)] = v;
+    }
     for (std::size_t s = 0; s < strips.begin.size(); ++s) {
         const int first = strips.begin[s];
         entry_begin_[s] =

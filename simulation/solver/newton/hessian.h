@@ -32,16 +32,9 @@ public:
     void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
 
 private:
-    /// What contributes to a vertex' block with another one.
-    struct Coupling {
-        int other = 0;
-        BlockList::Contribution from;
-    };
-    using Rows = Grouped<Coupling>;  ///< [vertices] by ascending other vertex
-    static Rows rows_of(const ElementFamily& family, int vertex_count);
     FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
-                  const Rows& rows);
-    BlockList place(const Rows& rows, const Strips& strips);
+                  const Couplings& couplings);
+    BlockList place(const Couplings& couplings, const Strips& strips);
 
     int vertex_count_;
     int columns_;

@@ -74,7 +74,7 @@ TEST(SolidModel, ShowsItsSurface) {
     const Built built;
     std::size_t of_film = 0;
     for (std::size_t t = 0; t < built.model.triangles.size(); ++t) {
-        const bool is_film = built.model.triangle_body[t] == 0;
+        const bool is_film = built.model.body_of_triangle(static_cast<int>(t)) == 0;
         of_film += is_film ? 1 : 0;
         for (const int v : built.model.triangles[t]) EXPECT_EQ(v < 24, is_film);
     }

@@ -67,7 +67,7 @@ TEST(Energies, OfARunAreThoseOfItsTriangles) {
         for (std::size_t t = 0; t < model.triangles.size(); ++t) {
             const auto& c = model.triangles[t];
             const double density =
-                scene.cloths[static_cast<std::size_t>(model.triangle_body[t])].density;
+                scene.cloths[model.body_of_triangle(static_cast<int>(t))].density;
             const double area = 0.5 * length(cross(at(rest, c[1]) - at(rest, c[0]),
                                                    at(rest, c[2]) - at(rest, c[0])));
             for (const int corner : c)
