@@ -68,6 +68,7 @@ void ErrorSamples::restart(const Model& model, double time) {
 void ErrorSamples::note(const Model& model, double strain) {
     last_strain_ = strain;
     motion_.note(model);
+    ends_.reset();
 }
 
 int frames_per_estimate(const Model& model) {
@@ -144,7 +145,9 @@ std::optional<Alarm> ErrorSamples::doubt_of_motion(const Model& model, double st
     }
     // What pins twist is strained by them, however little it moves.
     if (model.moving_pins || !is_stretched(strain, first_strain_)) return std::nullopt;
-    const double solved_strain = error_->solved_strain();
+    std::vector<float4> solved(model.positions->count());
+    model.from_scene_order(error_->solved(), solved);
+    const double solved_strain = model.edges->strain(solved).rms;
     const auto moved = motion_.find(model, strain, solved_strain);
     if (!moved) return std::nullopt;
     return Alarm{

@@ -42,7 +42,7 @@ public:
     /// A doubt was told, and the run goes on: what has sagged stays there, and is told once.
     void told() { is_told_ = true; }
 
-    /// What the last estimate was made of.
+    /// What the frame's estimate was made of; until note().
     const SubstepEnds& last() const { return *ends_; }
     /// The model has other steps from now on.
     void reset() { error_.reset(); }

@@ -9,6 +9,7 @@
 #include "runtime/cores.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
+#include "runtime/unused_memory.h"
 #include "simulation/async_offer.h"
 #include "simulation/contact/response.h"
 #include "simulation/diagnosis.h"
@@ -88,6 +89,7 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
     if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
+    give_back_freed();
     run_ = std::make_unique<PlannedExecutor>(
         *solver_, model_->strips.count(), std::move(devices),
         PlanningOptions{options.plan, options.division, options.cost_file,
@@ -355,6 +357,7 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     run_->learn(plan, times, substeps, frame_);
     end_part(frame, frame.learn_time);
     ++frame_;
+    start_.reset();  // nobody goes back there any more
     iterate_less(frame.relative_error);
     if (details.state_hash) frame.state_hash = hash();
     end_part(frame, frame.measure_time);

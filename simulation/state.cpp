@@ -49,7 +49,7 @@ std::vector<float> SimulationState::ordered_velocities(const Model& model) const
 
 std::string SimulationState::hash(const Model& model) const {
     const Vec3 o = model.origin;
-    return state_hash(ordered_positions(model), ordered_velocities(model), {o.x, o.y, o.z});
+    return state_hash(model.strips.rank, positions, velocities, {o.x, o.y, o.z});
 }
 
 Checkpoint SimulationState::checkpoint(int frame) const {

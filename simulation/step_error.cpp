@@ -7,6 +7,7 @@
 
 #include "runtime/executor.h"
 #include "runtime/tbb/cpu_device.h"
+#include "runtime/unused_memory.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/newton/refinement.h"
@@ -60,8 +61,10 @@ StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
         iterations_.emplace_back(newton_->make_iteration(i == 0, kGradientSteps[i]));
     }
     for (const float4& x : model_->positions->span()) inverse_masses_.push_back(x.w);
-    targets_.resize(inverse_masses_.size());
-    reached_.resize(inverse_masses_.size());
+    // What has served to set up.
+    model_->triangles = {};
+    model_->edges = nullptr;
+    give_back_freed();
 }
 
 StepError::~StepError() = default;
@@ -75,11 +78,19 @@ std::vector<float> StepError::solved() const {
     return model_->in_scene_order(newton_->positions());
 }
 
-double StepError::solved_strain() const { return model_->edges->strain(newton_->positions()).rms; }
-
+/// There are many frames between two estimates, and as much memory in this as in a run.
 std::optional<StepEstimate> StepError::estimate(const SubstepEnds& ends) {
-    constexpr double kLostInRounding = 10.0;
     start_at(ends);
+    const auto estimate = estimate_begun();
+    newton_->rest();
+    targets_ = reached_ = before_ = {};
+    contacts_ = {};
+    give_back_freed();
+    return estimate;
+}
+
+std::optional<StepEstimate> StepError::estimate_begun() {
+    constexpr double kLostInRounding = 10.0;
     double start = 0.0;
     double reached = 0.0;
     double rounding = 0.0;
@@ -111,6 +122,8 @@ void StepError::start_at(const SubstepEnds& ends) {
     const Vec3 g = to_vec3((*model_->gravity)[0]);
     const double h = model_->h;
     take_contacts(ends.contacts);
+    targets_.resize(inverse_masses_.size());
+    reached_.resize(inverse_masses_.size());
     for (std::size_t v = 0; v < reached_.size(); ++v) {
         const std::size_t own = index(model_->scene_vertex(static_cast<int>(v)));
         const auto read = [&](const std::vector<float>& xyz) {
@@ -182,7 +195,7 @@ double StepError::energy_of_rounding(double reached) const {
 double StepError::refine(double reached) {
     newton_->begin(reached_, targets_, contacts_);
     for (RowTable* table : newton_->tables()) executor_->rebind(table->resized_buffers());
-    before_ = reached_;
+    if (rubs_) before_ = reached_;
     double least = reached;
     double last = 0.0;
     double left = 0.0;

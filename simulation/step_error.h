@@ -54,13 +54,12 @@ public:
     /// Where the last estimate's substep would have led to, xyz in scene order, counted from the
     /// model's origin [m].
     std::vector<float> solved() const;
-    /// Of edges there, RMS.
-    double solved_strain() const;
     /// Its relative error alone.
     std::optional<double> of(const SubstepEnds& ends);
 
 private:
     struct Iteration;
+    std::optional<StepEstimate> estimate_begun();
     void start_at(const SubstepEnds& ends);
     double energy_at(std::span<const float4> positions) const;
     double energy_of_rounding(double reached) const;
@@ -76,7 +75,9 @@ private:
     std::unique_ptr<Device> device_;
     std::unique_ptr<Executor> executor_;
     std::vector<Iteration> iterations_;
-    std::vector<float> inverse_masses_;      ///< [vertices] of the model
+    std::vector<float> inverse_masses_;  ///< [vertices] of the model
+
+    // Of the estimate at hand; empty between two.
     std::vector<float4> targets_, reached_;  ///< [vertices] xyz, w = 1/mass, 0 for held ones
     std::vector<FrozenContact> contacts_;
     bool rubs_ = false;  ///< some of them

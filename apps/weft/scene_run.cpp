@@ -12,6 +12,7 @@
 #include "runtime/clock.h"
 #include "runtime/error.h"
 #include "runtime/io/cache_folder.h"
+#include "runtime/unused_memory.h"
 #include "simulation/bodies/mesh_files.h"
 #include "simulation/output/any_checkpoint.h"
 #include "simulation/run_description.h"
@@ -220,6 +221,7 @@ void SceneRun::open_geometry() {
     geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
                       geometry_bodies(model), geometry_steps(scene_.frames),
                       scene_.output.compression);
+    give_back_freed();  // copies of all triangles
     if (!earlier_ || !earlier_->has_geometry()) append_geometry();
 }
 

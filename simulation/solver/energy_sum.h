@@ -22,6 +22,8 @@ public:
     std::vector<Launch> launches(Buffer<float4>& positions);
     /// [kColumns * strips] E is the sum of them all [J].
     Buffer<float>& partials() { return partials_; }
+    /// What the launches make anew.
+    BufferStorage& terms() { return *terms_; }
 
 private:
     /// The terms of one kind of item.

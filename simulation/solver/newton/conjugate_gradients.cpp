@@ -133,6 +133,14 @@ std::vector<Launch> ConjugateGradients::advance() {
         coarse_.restrict(residuals_)};
 }
 
+std::vector<BufferStorage*> ConjugateGradients::scratch() {
+    std::vector<BufferStorage*> buffers = hessian_.scratch();
+    buffers.insert(buffers.end(),
+                   {&derivatives_.sums(), &before_, &after_, &factors_, &residuals_,
+                    &preconditioned_, &products_, &searches_, &applied_, &moves_, terms_.get()});
+    return buffers;
+}
+
 /// Contacts reach from anywhere to anywhere.
 std::pair<int, int> ConjugateGradients::around(int first, int last) const {
     return contacts_ ? std::pair(0, model_.vertex_count()) : halo_.around(first, last);

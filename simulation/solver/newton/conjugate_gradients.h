@@ -38,6 +38,9 @@ public:
     void add_product_accesses(Step::Adding& task, int first_strip, int end_strip);
     void add_advance_accesses(Step::Adding& task, int first_strip, int end_strip);
 
+    /// What begin_conjugate_gradients and what comes after it make anew, and linearised_at().
+    std::vector<BufferStorage*> scratch();
+
     CoarseSpace& coarse() { return coarse_; }
     /// Whose positions the derivatives of vertices [first, last) take.
     std::pair<int, int> around(int first, int last) const;

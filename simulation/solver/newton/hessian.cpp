@@ -125,6 +125,12 @@ std::vector<Launch> Hessian::multiply(Buffer<float4>& directions, Buffer<float>&
     return launches;
 }
 
+std::vector<BufferStorage*> Hessian::scratch() {
+    std::vector<BufferStorage*> buffers;
+    for (const auto& family : families_) buffers.push_back(&family->blocks());
+    return buffers;
+}
+
 void Hessian::add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes) {
     for (const auto& family : families_) family->add_accesses(task, first_strip, end_strip, writes);
 }

@@ -30,6 +30,8 @@ public:
     Launch multiply(Buffer<float4>& directions, Buffer<float>& products, int fresh);
     /// What a task over these strips needs of the blocks.
     void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
+    /// What couple() fills.
+    BufferStorage& blocks() { return blocks_; }
 
 private:
     FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
@@ -55,6 +57,8 @@ public:
     std::vector<Launch> sum_rows(Buffer<float>& sums);
     std::vector<Launch> multiply(Buffer<float4>& directions, Buffer<float>& products);
     void add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes);
+    /// What is made anew with each system.
+    std::vector<BufferStorage*> scratch();
 
 private:
     std::vector<std::unique_ptr<FamilyHessian>> families_;

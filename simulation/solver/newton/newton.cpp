@@ -5,6 +5,7 @@
 #include "kernels/descent/substep.h"
 #include "kernels/newton/control.h"
 #include "kernels/vbd/solve.h"
+#include "runtime/unused_memory.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
 #include "simulation/solver/energy_sum.h"
 #include "simulation/solver/newton/accesses.h"
@@ -136,6 +137,13 @@ public:
     }
 
     std::span<const float4> positions() const override { return model_.positions->span(); }
+
+    void rest() override {
+        std::vector<BufferStorage*> buffers = gradients_.scratch();
+        buffers.insert(buffers.end(), {&substep_.targets(), &smoother_.derivatives.sums(),
+                                       &energy_.terms(), &kept_, model_.velocities.get()});
+        for (BufferStorage* buffer : buffers) give_back(*buffer);
+    }
 
     Step make_iteration(bool is_first, int gradient_steps) override {
         regions_ = regions_of(Partition::whole(model_.strips.count()));

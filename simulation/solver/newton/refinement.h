@@ -26,6 +26,10 @@ public:
     /// One iteration with so many conjugate gradients. is_first: after begin()
     virtual Step make_iteration(bool is_first, int gradient_steps) = 0;
     virtual std::span<const float4> positions() const = 0;
+
+    /// Until the next begin(): gives back the memory of all that it and the iterations make anew,
+    /// but for the positions. For host memory only.
+    virtual void rest() = 0;
 };
 
 std::unique_ptr<NewtonRefinement> make_newton_refinement(Model& model);

@@ -163,6 +163,13 @@ TEST(StateHash, IsTheSameOnEveryMachine) {
     EXPECT_EQ(state_hash({}, {}), "8eae55a53adb7034863d54dfc16944fe");
 }
 
+TEST(StateHash, IsTheSameInEveryOrderOfRows) {
+    const std::vector<float4> positions = {{3.0F, 4.0F, 5.0F, 7.0F}, {0.0F, 1.0F, -2.5F, 8.0F}};
+    const std::vector<float4> velocities = {{0.4F, 0.5F, 0.6F, 0.0F}, {0.1F, 0.2F, 0.3F, 1.0F}};
+    const std::vector<int> rows = {1, 0};
+    EXPECT_EQ(state_hash(rows, positions, velocities), "a6331bb9459732baa23b2011504dae77");
+}
+
 TEST(StateHash, SeesEveryBit) {
     std::vector<float> positions = {0.0F, 1.0F, 2.0F};
     const std::vector<float> velocities = {0.0F, 0.0F, 0.0F};

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "runtime/buffer.h"
+
+namespace weft {
+
+/// Gives the system back what a large buffer takes, until somebody writes into it again. What was
+/// in it is lost: zeros, or what was there. For buffers that only the host and devices in its
+/// memory have, between runs of their executors.
+void give_back(BufferStorage& buffer);
+
+/// Gives the system back what freed objects leave in the heap. After much was set up: large
+/// temporary lists, of which allocators keep the memory for more of the same.
+void give_back_freed();
+
+}  // namespace weft
