@@ -123,7 +123,7 @@ TEST_P(Equivariant, PlacesTooFarForSinglePrecisionAreTold) {
     };
     EXPECT_TRUE(warnings_at(1e6, 1e6).empty());
     EXPECT_TRUE(warnings_at(0.0, 100.0).empty());
-    for (const auto [both, apart] : {std::pair{0.0, 1000.0}, {0.0, 8000.0}, {1e6, 8000.0}}) {
+    for (const auto& [both, apart] : {std::pair{0.0, 1000.0}, {0.0, 8000.0}, {1e6, 8000.0}}) {
         const Warnings far = warnings_at(both, both + apart);
         ASSERT_EQ(far.size(), 1U);
         EXPECT_NE(far[0].find("are rounded to"), std::string::npos) << far[0];
