@@ -81,6 +81,16 @@ double reach_of_bodies(const Model& model) {
     return most;
 }
 
+/// What single precision takes from a coordinate of that size, or gives to it [m].
+double rounding_at(double reach) {
+    return 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+}
+
+/// The way that gravity makes in a substep [m]; 0: there is none.
+double fall_in_substep(const Model& model) {
+    return length(model.scene.gravity_at(0.0)) * model.h * model.h;
+}
+
 /// Whether that much rounding shows. Shapes: rounded to 0.7 % of its edges, a sheet had 0.5 to 0.8
 /// of its motion. Motion, as rounding takes or gives a part of what gravity does in a substep: with
 /// 40 % of that, and 0.05 % of its edges, a block sank by 2 to 17 % too far (docs/stability.md).
@@ -88,7 +98,7 @@ double reach_of_bodies(const Model& model) {
 bool shows(double rounding, double shortest, const Model& model) {
     constexpr double kOfShapes = 0.0025, kOfEdges = 0.0002, kOfFall = 0.2;
     if (rounding >= kOfShapes * shortest) return true;
-    const double fall = length(model.scene.gravity_at(0.0)) * model.h * model.h;
+    const double fall = fall_in_substep(model);
     return fall > 0.0 && rounding >= kOfFall * fall && rounding >= kOfEdges * shortest;
 }
 
@@ -96,8 +106,7 @@ bool shows(double rounding, double shortest, const Model& model) {
 /// what is fine is hardly there.
 void warn_of_rounding(const Model& model, Warnings& warnings) {
     const double reach = reach_of_bodies(model);
-    const double rounding =
-        0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+    const double rounding = rounding_at(reach);
     const double shortest = model.edges->shortest();
     if (shortest <= 0.0 || !shows(rounding, shortest, model)) return;
     warnings.push_back(fmt::format(
@@ -105,6 +114,27 @@ void warn_of_rounding(const Model& model, Warnings& warnings) {
         "of the shortest edge ({:.3g} m): shapes that fine and slow motion are not kept; bring "
         "bodies that are far apart nearer to each other, or leave such edges out",
         reach, rounding, 100.0 * rounding / shortest, shortest));
+}
+
+/// Velocities are differences of positions: in steps in which gravity moves by less than rounding
+/// does, motion gets lost, or comes from nowhere. A sheet of 1 m (scenes/sheet.toml, 2 iterations)
+/// came nearest to its reference with 128 substeps, in which rounding is a fifth of that way; it
+/// was 3 times as far away by 256, and 20 times by 512, by vbd, sosd and newton
+/// (docs/stability.md).
+void warn_of_short_steps(const Model& model, Warnings& warnings) {
+    constexpr double kTooShort = 2.0, kLongEnough = 0.5;
+    const double reach = reach_of_bodies(model);
+    const double rounding = rounding_at(reach);
+    const double fall = fall_in_substep(model);
+    if (fall <= 0.0 || rounding < kTooShort * fall) return;
+    const Scene& scene = model.scene;
+    const double longer = std::sqrt(rounding / (kLongEnough * fall));
+    warnings.push_back(fmt::format(
+        "steps of {:.2g} s are so short that the rounding of coordinates of {:.3g} m ({:.1g} m) is "
+        "{:.2g} times the way that gravity makes in one: motion gets lost, or comes from nowhere; "
+        "scene.substeps = {} (instead of {}) with more iterations keeps it",
+        model.h, reach, rounding, rounding / fall,
+        std::max(1, static_cast<int>(scene.substeps / longer)), scene.substeps));
 }
 
 }  // namespace
@@ -121,6 +151,7 @@ double energy_inside_obstacles(const Model& model) {
 
 void warn_of_start(const Model& model, Warnings& warnings) {
     warn_of_rounding(model, warnings);
+    warn_of_short_steps(model, warnings);
     for (const Obstacle& obstacle : model.convex_obstacles) {
         warn_of_inside(model, obstacle, warnings);
         warn_of_turns(model, obstacle, warnings);

@@ -130,6 +130,23 @@ TEST_P(Equivariant, PlacesTooFarForSinglePrecisionAreTold) {
     }
 }
 
+/// So are steps in which rounding is more than gravity does, and only these.
+TEST_P(Equivariant, StepsTooShortForSinglePrecisionAreTold) {
+    const auto warnings_of = [](int substeps) {
+        Scene scene = scene_of(kTiedBrick);
+        scene.obstacles.clear();
+        scene.substeps = substeps;
+        Warnings warnings;
+        warn_of_start(Model(scene, warnings), warnings);
+        return warnings;
+    };
+    EXPECT_TRUE(warnings_of(128).empty());
+    const Warnings too_short = warnings_of(2048);
+    ASSERT_EQ(too_short.size(), 1U);
+    EXPECT_NE(too_short[0].find("are so short that the rounding"), std::string::npos)
+        << too_short[0];
+}
+
 /// The unit of mass goes along, so that energies stay: cloth that rounding alone bends has energies
 /// whose squares xpbd would otherwise lose below the least single-precision number.
 TEST_P(Equivariant, LengthsScaledByPowersOfTwoChangeNoBit) {
