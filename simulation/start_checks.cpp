@@ -102,28 +102,13 @@ bool shows(double rounding, double shortest, const Model& model) {
     return fall > 0.0 && rounding >= kOfFall * fall && rounding >= kOfEdges * shortest;
 }
 
-/// Positions are single precision, counted from a place near the bodies: in a scene that is large,
-/// what is fine is hardly there.
-void warn_of_rounding(const Model& model, Warnings& warnings) {
-    const double reach = reach_of_bodies(model);
-    const double rounding = rounding_at(reach);
-    const double shortest = model.edges->shortest();
-    if (shortest <= 0.0 || !shows(rounding, shortest, model)) return;
-    warnings.push_back(fmt::format(
-        "coordinates of {:.3g} m, from a place near the bodies, are rounded to {:.1g} m, {:.2g} % "
-        "of the shortest edge ({:.3g} m): shapes that fine and slow motion are not kept; bring "
-        "bodies that are far apart nearer to each other, or leave such edges out",
-        reach, rounding, 100.0 * rounding / shortest, shortest));
-}
-
 /// Velocities are differences of positions: in steps in which gravity moves by less than rounding
 /// does, motion gets lost, or comes from nowhere. A sheet of 1 m (scenes/sheet.toml, 2 iterations)
 /// came nearest to its reference with 128 substeps, in which rounding is a fifth of that way; it
 /// was 3 times as far away by 256, and 20 times by 512, by vbd, sosd and newton
 /// (docs/stability.md).
-void warn_of_short_steps(const Model& model, Warnings& warnings) {
+void warn_of_short_steps(const Model& model, double reach, Warnings& warnings) {
     constexpr double kTooShort = 2.0, kLongEnough = 0.5;
-    const double reach = reach_of_bodies(model);
     const double rounding = rounding_at(reach);
     const double fall = fall_in_substep(model);
     if (fall <= 0.0 || rounding < kTooShort * fall) return;
@@ -135,6 +120,21 @@ void warn_of_short_steps(const Model& model, Warnings& warnings) {
         "scene.substeps = {} (instead of {}) with more iterations keeps it",
         model.h, reach, rounding, rounding / fall,
         std::max(1, static_cast<int>(scene.substeps / longer)), scene.substeps));
+}
+
+/// Positions are single precision, counted from a place near the bodies: in a scene that is large,
+/// what is fine is hardly there.
+void warn_of_rounding(const Model& model, Warnings& warnings) {
+    const double reach = reach_of_bodies(model);
+    const double rounding = rounding_at(reach);
+    const double shortest = model.edges->shortest();
+    if (shortest <= 0.0) return;
+    if (!shows(rounding, shortest, model)) return warn_of_short_steps(model, reach, warnings);
+    warnings.push_back(fmt::format(
+        "coordinates of {:.3g} m, from a place near the bodies, are rounded to {:.1g} m, {:.2g} % "
+        "of the shortest edge ({:.3g} m): shapes that fine and slow motion are not kept; bring "
+        "bodies that are far apart nearer to each other, or leave such edges out",
+        reach, rounding, 100.0 * rounding / shortest, shortest));
 }
 
 }  // namespace
@@ -151,7 +151,6 @@ double energy_inside_obstacles(const Model& model) {
 
 void warn_of_start(const Model& model, Warnings& warnings) {
     warn_of_rounding(model, warnings);
-    warn_of_short_steps(model, warnings);
     for (const Obstacle& obstacle : model.convex_obstacles) {
         warn_of_inside(model, obstacle, warnings);
         warn_of_turns(model, obstacle, warnings);
