@@ -33,15 +33,14 @@ public:
     /// The device has run tasks of this frame, so its costs are up to date.
     void used(std::uint32_t device) { idle_frames_[device] = 0; }
 
-    /// Whether it has been out of use for so long, or ever since the start, that its costs may be
-    /// those of another time.
-    bool is_stale(std::uint32_t device) const { return idle_frames_[device] >= settings_.interval; }
+    /// What is known of the device is doubtful, however short it has been out of use.
+    void doubt(std::uint32_t device) { idle_frames_[device] = settings_.interval; }
 
     /// Whether to probe the device now. What is known of it counts less and less as it grows old:
     /// down to a quarter.
     /// price  predicted seconds by which the frame gets longer; >= 0.
     bool due(std::uint32_t device, double price) const {
-        if (!is_stale(device)) return false;
+        if (idle_frames_[device] < settings_.interval) return false;
         const double age = static_cast<double>(idle_frames_[device]) / settings_.interval;
         const double advance = probed_[device] ? 0.0 : advance_;
         return price / std::clamp(age, 1.0, 4.0) <= credit_ + advance;

@@ -49,7 +49,7 @@ std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
     if (!is_over(seconds / to_beat)) return std::nullopt;
     running_ = false;
     probes_.paid(alternative_, std::max(0.0, charge_));
-    return median_ratio() < 1.0 ? std::optional(alternative_) : std::nullopt;
+    return median_ratio() < 1.0 - settings_.margin ? std::optional(alternative_) : std::nullopt;
 }
 
 }  // namespace weft::scheduler

@@ -15,6 +15,8 @@ struct TrialSettings {
     std::uint32_t waking = 1;
     /// A trial ends at the first frame behind these that takes so many times what it has to beat.
     double hopeless = 1.5;
+    /// Relative gain below which a change is not worth it.
+    double margin = 0.03;
 };
 
 /// Tries what the plans leave out, in earnest: a trial is several frames long, and judged by the
@@ -35,19 +37,17 @@ public:
 
     /// Whether the frame of the last next() belongs to a trial.
     bool running() const { return running_; }
-    /// Whether that is a trial of this alternative.
-    bool tries(std::uint32_t alternative) const { return running_ && alternative_ == alternative; }
     /// Whether it is one of those that tell nothing.
     bool waking() const { return running_ && frame_ < settings_.waking; }
 
     /// All that this alternative needs has been in use in this frame: it needs no trial.
     void used(std::uint32_t alternative) { probes_.used(alternative); }
 
-    /// What is known of it is from another time: it has been out of use for long, or always.
-    bool is_stale(std::uint32_t alternative) const { return probes_.is_stale(alternative); }
+    /// What is known of it is doubtful: it may be tried as soon as there is credit.
+    void doubt(std::uint32_t alternative) { probes_.doubt(alternative); }
 
     /// Ends a frame. Gives the alternative whose trial has just ended well: its frames, but for the
-    /// first, were faster than what the chosen one was expected to take.
+    /// first, were faster, by the margin, than what the chosen one was expected to take.
     /// seconds, to_beat  that the frame took, and that the chosen alternative would have taken
     std::optional<std::uint32_t> end_frame(double seconds, double to_beat);
 

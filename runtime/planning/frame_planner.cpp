@@ -31,6 +31,15 @@ bool is_part_of_another(const std::vector<Device*>& devices, std::size_t d) {
     });
 }
 
+/// Whether such a device is in its team.
+bool is_of_a_part(const std::vector<Device*>& devices, std::size_t d) {
+    for (std::size_t other = 0; other < devices.size(); ++other) {
+        const bool is_mate = devices[other]->info().team == devices[d]->info().team;
+        if (is_mate && is_part_of_another(devices, other)) return true;
+    }
+    return false;
+}
+
 /// Of the first team.
 std::size_t team_size(const std::vector<Device*>& devices) {
     return static_cast<std::size_t>(std::ranges::count_if(devices, [&](const Device* device) {
@@ -101,16 +110,14 @@ void FramePlanner::find_expectations() {
 }
 
 /// Everybody's share is no choice of its own: it is there for trials. And where one device has all
-/// cores of a team, the team's mixture is seldom the better one, while forecasts of it are often
-/// wrong, as it has many parts: it is not chosen by what was learnt in another time.
+/// cores of a team, the team is seldom the better choice, while forecasts of it are often wrong, as
+/// a mixture has many parts, and devices that sleep look slow or fast by chance.
 bool FramePlanner::needs_trial(std::uint32_t alternative) const {
-    if (candidates_.is_single(alternative)) return false;
     if (candidates_.is_everybody(alternative)) return true;
     if (kind_ != PlanKind::kAuto || alternative == feedback_.choice().current()) return false;
-    if (!trials_.tries(alternative) && !trials_.is_stale(alternative)) return false;
     const unsigned mask = candidates_.devices_of(alternative);
     for (std::size_t d = 0; d < devices_.size(); ++d) {
-        if ((mask >> d & 1U) != 0 && is_part_of_another(devices_, d)) return true;
+        if ((mask >> d & 1U) != 0 && is_of_a_part(devices_, d)) return true;
     }
     return false;
 }
@@ -195,6 +202,8 @@ void FramePlanner::end_trial(std::uint32_t alternative) {
         candidates_.adopt_everybody(alternative);
         alternative = candidates_.mixture_beside(alternative);
     }
+    // What has all cores may only have begun slowly: it has a return match.
+    if (needs_trial(alternative)) trials_.doubt(feedback_.choice().current());
     feedback_.choice().forget(alternative);
     feedback_.choice().prefer(alternative);
 }

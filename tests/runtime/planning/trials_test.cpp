@@ -93,6 +93,17 @@ TEST(PlannerTrials, AllCoresByOneAreLeftForWhatWasSeenOnly) {
     EXPECT_LT(sum, 1.015 * kFrames * least) << "a per cent for trials, and a frame in advance";
 }
 
+/// The third device is the fastest, but slow for as long as it takes the others to win a trial.
+TEST(PlannerTrials, AllCoresByOneHaveAReturnMatch) {
+    const std::vector<VirtualMachine::Speed> speeds{{2e-6, 20e-9}, {2e-6, 20e-9}, {2e-6, 8e-9}};
+    Planned p(kAcross, kAlong, speeds, kLatency, PlanKind::kAuto, {0, 0, 1});
+    p.machine.speeds[2].per_item *= 2.0;
+    ASSERT_EQ(p.advance().division.devices(), std::vector{2});
+    for (int i = 0; i < 10 && p.advance().division.devices() == std::vector{2}; ++i) continue;
+    p.machine.speeds[2].per_item /= 2.0;
+    EXPECT_EQ(p.advance(20).division.devices(), std::vector{2});
+}
+
 /// A third device that has the cores of the other two.
 TEST(PlannerTrials, TeamsTakeTurnsAndTheFasterOneWorks) {
     for (const double alone : {7e-9, 10e-9, 14e-9}) {
