@@ -103,7 +103,8 @@ void ErrorSamples::begin(const Model& model, double time) {
 std::optional<Alarm> ErrorSamples::doubt(const Model& model, const Watch::Look& look,
                                          const StepEstimate& estimate) const {
     auto alarm = doubt_of_strain(look, estimate);
-    return alarm ? alarm : doubt_of_motion(model, look.strain.rms);
+    if (!alarm) alarm = doubt_of_motion(model, look.strain.rms);
+    return alarm ? alarm : doubt_of_led_solids(model, estimate.relative_error);
 }
 
 std::optional<Alarm> ErrorSamples::doubt_of_strain(const Watch::Look& look,
@@ -157,6 +158,24 @@ std::optional<Alarm> ErrorSamples::doubt_of_motion(const Model& model, double st
                     "it were solved: that can be all of the motion",
                     *moved, 100.0 * strain, 100.0 * solved_strain),
         {}};
+}
+
+/// Where pins lead solids, strain and motion do not tell whether steps are solved: what is twisted
+/// has gone far, and is strained by the pins. The error itself does, of what descends the step's
+/// energy: blocks twisted at a ratio of 0.495 by 8 iterations of 4 ms sag by 15 to 26 times what
+/// they should, at errors of 0.8 and more; solids that moved as they should had 0.28 at most.
+std::optional<Alarm> ErrorSamples::doubt_of_led_solids(const Model& model,
+                                                       double relative_error) const {
+    constexpr double kUnsolved = 0.6;
+    const Scene& scene = model.scene;
+    const bool are_solids = !scene.solids.empty() && scene.cloths.empty() && !scene.contact;
+    if (is_told_ || !model.moving_pins || !are_solids) return std::nullopt;
+    if (scene.solver.method == Method::kXpbd || relative_error < kUnsolved) return std::nullopt;
+    return Alarm{Alarm::Kind::kDoubt,
+                 fmt::format("solids are led by pins in steps that are hardly solved: a relative "
+                             "error of {:.2g}, where 1 is no better than motion without material",
+                             relative_error),
+                 {}};
 }
 
 std::optional<StepEstimate> ErrorSamples::end(const Model& model,

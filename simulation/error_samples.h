@@ -51,6 +51,7 @@ private:
     std::optional<Alarm> doubt_of_strain(const Watch::Look& look,
                                          const StepEstimate& estimate) const;
     std::optional<Alarm> doubt_of_motion(const Model& model, double strain) const;
+    std::optional<Alarm> doubt_of_led_solids(const Model& model, double relative_error) const;
 
     int threads_;
     double start_ = 0.0;  ///< [s]
