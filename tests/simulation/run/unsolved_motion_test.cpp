@@ -159,8 +159,8 @@ motion = { angular_velocity = 900.0, center = [-0.5, 0.0, 0.0] }
 }
 
 /// A block that pins twist, nearly incompressible: it sags by many times what it should, and
-/// neither its strain nor its way says so. (By xpbd the error of a step says nothing, but it moves
-/// as it should.)
+/// neither its strain nor its way says so. (By xpbd the error of a step
+/// says nothing; its strain is told of, later.)
 TEST_P(UnsolvedMotion, OfSolidsThatPinsLeadIsSeenFromTheError) {
     const auto twisted = [](double poisson) {
         Scene scene = scene_of(R"(
