@@ -459,6 +459,7 @@ void Simulation::look_at_contact(FrameRecord& frame) {
     ContactResponse* contact = solver_->contact();
     if (contact == nullptr) return;
     run_->executor().fetch(contact->cut_counts());
+    run_->executor().fetch(contact->cut_ways());
     run_->executor().fetch(contact->nearest());
     frame.contacts = {contact->account()};
     frame.contacts.front().redone = redone_;

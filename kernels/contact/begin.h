@@ -41,10 +41,14 @@ WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
 
 /// In how many substeps of the frame contacts took each vertex back, and in how many it could not
 /// be put where all of them allow it to be.
-/// cut     [vertices] 1 where they took it back in this one, 2 where there was no such place
-/// counts  [2 * vertices] written: of both
-WEFT_KERNEL(count_cut, WEFT_GLOBAL const int* cut, WEFT_GLOBAL int* counts, int vertex_count,
-            int instance) {
+/// cut      [vertices] 1 where they took it back in this one, 2 where there was no such place
+/// anchors  [vertices] xyz: where contacts were looked for [m]
+/// goals    [vertices] xyz: where inertia led from there [m]
+/// counts   [2 * vertices] written: of both
+/// ways     [vertices] written: the longest way that inertia led one that was taken back [m]
+WEFT_KERNEL(count_cut, WEFT_GLOBAL const int* cut, WEFT_GLOBAL const float4* anchors,
+            WEFT_GLOBAL const float4* goals, WEFT_GLOBAL int* counts, WEFT_GLOBAL float* ways,
+            int vertex_count, int instance) {
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
     const whole now = load_whole(cut, i);
@@ -53,6 +57,10 @@ WEFT_KERNEL(count_cut, WEFT_GLOBAL const int* cut, WEFT_GLOBAL int* counts, int 
     const whole lost_before = instance == 0 ? none : load_whole(counts, second);
     store_whole(counts, i, before + (now > none ? one : none));
     store_whole(counts, second, lost_before + (now > one ? one : none));
+    const real zero = splat(0.0f);
+    const real way = length3(subtract(xyz(load4(goals, i)), xyz(load4(anchors, i))));
+    const real longest = instance == 0 ? zero : load(ways, i);
+    store(ways, i, larger(longest, now > none ? way : zero));
 }
 
 WEFT_KERNELS_END

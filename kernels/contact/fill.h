@@ -62,23 +62,30 @@ WEFT_INLINE contact_pair load_pair(WEFT_GLOBAL const float4* anchors,
 /// first alone.
 WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat(0.0f)); }
 
-/// Where the plane between the two sides ends, from the closest point of B on, along n. Both sides
-/// get of the gap by how fast they come. What is led by the scene comes as far as it wants: the
-/// plane goes before it, also over where the other side is. (Where both are led through each other,
-/// it goes between.)
+/// Where the plane between the two sides ends, from the closest point of B on, along n. Each side
+/// gets what inertia asks for and half of what is left then, so that one which hardly moves can
+/// still be pushed, or swing; where the gap is too small for that, both get a part of it by how
+/// fast they come. What is led by the scene comes as far as it wants: the plane goes before it, also
+/// over where the other side is. (Where both are led through each other, it goes between.)
 /// distance     of the two sides [m]
 /// a, b         the most that vertices of a side come nearer [m]
 /// led_a, led_b  likewise, of held vertices alone
 /// least        what is left to share where there is nothing [m]
 WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b, real least) {
-    const real both_ways = (a - led_a) + (b - led_b);
-    const real part = (b - led_b) / larger(both_ways, splat(1e-12f));
-    const real bounded = smaller(larger(part, splat(0.05f)), splat(0.95f));
-    const real share = both_ways > splat(1e-9f) ? bounded : splat(0.5f);
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const real own_b = b - led_b;
+    const real both_ways = (a - led_a) + own_b;
     const real left = distance - led_a - led_b;
-    const real too_far = smaller(left - least, splat(0.0f));
+    const real shared = larger(left, least);
+    const real spare = larger(shared - both_ways, zero);
+    const real met = smaller(shared / larger(both_ways, splat(1e-12f)), one);
+    const real wanted = own_b * met + splat(0.5f) * spare;
+    const real bounded =
+        smaller(larger(wanted, splat(0.05f) * shared), splat(0.95f) * shared);
+    const real too_far = smaller(left - least, zero);
     const real part_of_a = led_a / larger(led_a + led_b, splat(1e-12f));
-    return led_b + share * larger(left, least) + too_far * part_of_a;
+    return led_b + bounded + too_far * part_of_a;
 }
 
 /// A contact as all of its vertices see it.

@@ -104,8 +104,8 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
 /// rows       [2 * vertices] column-major: where the vertex' planes start, room for how many
 /// counts     [vertices] how many there are
 /// planes     [entries] xyz: n, w: how far the anchor lies before where the plane ends [m]
-/// cut        [vertices] written: 1 where the vertex was taken back, 2 where it found no place that
-///            all its planes and its ball allow, else 0
+/// cut        [vertices] written: 1 where the vertex was taken back by more than a thousandth of its
+///            way, 2 where it found no place that all its planes and its ball allow, else 0
 /// soft       what stays between plane and vertex where only that has to yield [m]
 /// hard       what stays at least [m]
 WEFT_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* anchors,
@@ -145,9 +145,12 @@ WEFT_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const 
         const real share = rest > left ? left / divisor(rest) : one;
         const real3 end = add(anchor, between3(foothold, way, share));
         store4_where(out, positions, i, with_w(end, x.w));
+        const real3 taken = subtract(subtract(end, anchor), wanted);
+        const mask is_cut = both(out, dot3(taken, taken) > splat(1e-6f) * dot3(wanted, wanted));
         // Half of what stays at least is left for rounding.
         const real beyond = larger(kept.lack - splat(0.5f * hard), from - radius);
-        result = out ? (beyond > zero ? splat_whole(2) : splat_whole(1)) : result;
+        const mask is_lost = both(out, beyond > zero);
+        result = is_lost ? splat_whole(2) : (is_cut ? splat_whole(1) : result);
     }
     store_whole(cut, i, result);
 }

@@ -434,11 +434,6 @@ void CommonMotion::build_fences(int substep, const std::vector<char>& is_split,
     }
 }
 
-Vec3 CommonMotion::last_velocity(int vertex) const {
-    const std::size_t first = at(substeps_ - 1) * bodies_.size();
-    return (1.0 / model_.h) * vec(carried_[first + at(body_of_[at(vertex)])]);
-}
-
 bool CommonMotion::revise() {
     const auto is_one = [](int flag) { return flag != 0; };
     const bool somebody_strayed = std::ranges::any_of(strays_.span(), is_one);

@@ -39,8 +39,6 @@ public:
     /// patches got loose that were taken for quiet. Then the frame has to be done again, and is
     /// filled in with less foreseen: at last with all bodies as one group that stays where it is.
     bool revise();
-    /// With which what is near a vertex moves together in the frame's last substep [m/s].
-    Vec3 last_velocity(int vertex) const;
     std::vector<BufferStorage*> placed_buffers();
 
     /// From now on frames are filled in with the groups of bodies that are parts of the scene's, or

@@ -142,6 +142,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       nearest_("contact.nearest", model.positions->count()),
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
+      cut_ways_("contact.cut_ways", model.positions->count()),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
@@ -336,8 +337,8 @@ void ContactResponse::show_start(Launch even, Launch odd) {
 }
 
 void ContactResponse::add_count(std::vector<Launch>& launches) {
-    launches.push_back(launch(kernels::count_cut, model_.vertices(), cut_, cut_counts_,
-                              model_.vertex_count(), kInstance));
+    launches.push_back(launch(kernels::count_cut, model_.vertices(), cut_, anchors_, goals_,
+                              cut_counts_, cut_ways_, model_.vertex_count(), kInstance));
     launches.push_back(launch(kernels::find_unquiet, model_.vertices(), *model_.positions, anchors_,
                               goals_, quiet_, motion_.unquiet(), kInstance));
 }
@@ -349,7 +350,8 @@ void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last
         .reads(goals_, first, last)
         .updates(motion_.unquiet(), first, last)
         .updates(cut_counts_, first, last)
-        .updates(cut_counts_, all + first, all + last);
+        .updates(cut_counts_, all + first, all + last)
+        .updates(cut_ways_, first, last);
 }
 
 std::string ContactResponse::trouble() const {
@@ -413,21 +415,19 @@ ContactRecord ContactResponse::account() {
     return record;
 }
 
-/// So many that vertices which were taken back go no further in one than contacts let them: planes
-/// leave them a good part of the gap before them, and from half of the thickness on they are pushed
-/// in time.
+/// So many that inertia leads vertices which were taken back no further in one than contacts let
+/// them: planes leave them a good part of the gap before them, and from half of the thickness on
+/// they are pushed in time.
 int ContactResponse::substeps_wanted() const {
     constexpr double kPart = 0.8;
     double most = 0.0;
     for (int v = 0; v < model_.vertex_count(); ++v) {
         const auto i = static_cast<std::size_t>(v);
         if (cut_counts_[i] == 0) continue;
-        const Vec3 along = motion_.last_velocity(v);
-        const double speed = length(to_vec3((*model_.velocities)[i]) - along);
         const double gap = static_cast<double>(std::max(nearest_[i], 0.5f * range_));
-        most = std::max(most, speed / (kPart * gap));
+        most = std::max(most, static_cast<double>(cut_ways_[i]) / (kPart * gap));
     }
-    const double substeps = std::ceil(most * model_.scene.dt);
+    const double substeps = std::ceil(most * model_.scene.dt / model_.h);
     return std::max(model_.scene.substeps, static_cast<int>(std::min(substeps, 1e6)));
 }
 

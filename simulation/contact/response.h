@@ -73,8 +73,9 @@ public:
 
     /// What a frame tells of itself; the host's copy.
     Buffer<int>& cut_counts() { return cut_counts_; }
+    Buffer<float>& cut_ways() { return cut_ways_; }
     Buffer<float>& nearest() { return nearest_; }
-    // Of a frame whose cut_counts() and nearest() the host has:
+    // Of a frame of which the host has these:
     /// what is to be told; empty: nothing;
     std::string trouble() const;
     /// what there was to do.
@@ -133,6 +134,7 @@ private:
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
+    Buffer<float> cut_ways_;
     Buffer<float4> snapshots_;
     TaskBody fill_;
     ContactEnergy energy_;

@@ -114,8 +114,13 @@ void unquiet_case(KernelCase& c) {
 
 void count_case(KernelCase& c) {
     auto& cut = add_indices(c, "cut", c.items, 3);
+    auto& anchors = add_points(c, "anchors", c.items);
+    auto& goals = add_points(c, "goals", c.items);
     auto& counts = add_indices(c, "counts", 2 * c.items, 9);
-    c.launch = launch(kernels::count_cut, c.segments, cut, counts, c.items, kInstance);
+    auto& ways = c.add<float>("ways", c.items);
+    for (float& way : ways.span()) way = c.random.real(0.0f, kSize);
+    c.launch = launch(kernels::count_cut, c.segments, cut, anchors, goals, counts, ways, c.items,
+                      kInstance);
 }
 
 void truncate_case(KernelCase& c) {

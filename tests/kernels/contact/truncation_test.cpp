@@ -165,5 +165,16 @@ TEST(Planes, EndBeforeWhatTheSceneLeads) {
     }
 }
 
+/// Whoever hardly moves keeps room to be pushed, or to swing, even if all that comes is the other.
+TEST(Planes, LeaveBothSidesHalfOfWhatNobodyAsksFor) {
+    constexpr float kDistance = 0.01f;
+    const float still = kernels::plane_end(kDistance, 1e-5f, 0.0f, 0.0f, 0.0f, 1e-4f);
+    EXPECT_NEAR(still, 0.5f * (kDistance - 1e-5f), 1e-7f);
+    const float both = kernels::plane_end(kDistance, 0.004f, 0.002f, 0.0f, 0.0f, 1e-4f);
+    EXPECT_NEAR(both, 0.004f, 1e-7f);
+    const float fast = kernels::plane_end(kDistance, 0.04f, 0.01f, 0.0f, 0.0f, 1e-4f);
+    EXPECT_NEAR(fast, 0.2f * kDistance, 1e-7f) << "by how fast they come";
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -93,13 +93,16 @@ Vec3 push_on(ManualRun& run, int body) {
     return sum;
 }
 
-class Resting : public EverySolver {};
+class Resting : public EverySolver {
+protected:
+    /// That solve the steps of what lies on each other well enough for it to lie still.
+    static int many_iterations() { return GetParam() == Method::kJpgd ? 80 : 20; }
+};
 
-/// What carries blocks is pushed by their weight, and they creep as what sticks may. (How much each
-/// carries of those above it is another matter: docs/contact.md.)
+/// Each block is pushed by its weight, on average of its swings: what lies below it carries all that
+/// is above. They creep no faster than what sticks may. (By fewer iterations they sway.)
 TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "presses more than it weighs: docs/contact.md";
-    std::string text = head(8, "friction = 0.3\n") + kFloor;
+    std::string text = head(many_iterations(), "friction = 0.3\n") + kFloor;
     for (int i = 0; i < 3; ++i) {
         const Vec3 place{0.001 * i, 0.0535 + 0.1035 * i, 0.002 * i};
         text += block(fmt::format("block{}", i), place, 200.0, 2e5, 7 * i);
@@ -108,17 +111,20 @@ TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
     run.run(60);
     std::vector<Vec3> before;
     for (int b = 1; b <= 3; ++b) before.push_back(momentum_of(run, b).place);
-    double push = 0.0;
-    double weight = 0.0;
-    run.run(30);
-    for (int b = 1; b <= 3; ++b) {
-        const Momentum now = momentum_of(run, b);
-        weight += now.mass * kGravity;
-        push += push_on(run, b).y;
-        EXPECT_LT(length(now.place - before[static_cast<std::size_t>(b - 1)]), 30.0 / 60.0 * kCreep)
-            << b;
+    constexpr int kFrames = 30;
+    std::vector<double> pushes(3, 0.0);
+    for (int frame = 0; frame < kFrames; ++frame) {
+        run.run(1);
+        for (int b = 1; b <= 3; ++b)
+            pushes[static_cast<std::size_t>(b - 1)] += push_on(run, b).y / kFrames;
     }
-    EXPECT_NEAR(push / weight, 1.0, 0.1);
+    for (int b = 1; b <= 3; ++b) {
+        const auto i = static_cast<std::size_t>(b - 1);
+        const Momentum now = momentum_of(run, b);
+        // What xpbd's contacts are worth is in their multipliers, not in the gaps.
+        if (GetParam() != Method::kXpbd) EXPECT_NEAR(pushes[i] / (now.mass * kGravity), 1.0, 0.1) << b;
+        EXPECT_LT(length(now.place - before[i]), kFrames / 60.0 * kCreep) << b;
+    }
 }
 
 /// Two blocks that meet at 1 m/s each, the second one of so many times the mass of the first.
@@ -150,18 +156,17 @@ TEST_P(Resting, HeadOnCollisionsKeepMomentum) {
     for (const int iterations : {2, 8}) {
         ManualRun run(scene_of(meeting_blocks(iterations, 10, 1.0)));
         const bool is_xpbd = GetParam() == Method::kXpbd;
-        EXPECT_LT(momentum_lost(run), is_xpbd ? 0.2 : 2e-3) << iterations << " iterations";
+        EXPECT_LT(momentum_lost(run), is_xpbd ? 0.1 : 1e-5) << iterations << " iterations";
         EXPECT_LT(momentum_of(run, 0).velocity.x, -0.1) << "they part";
     }
 }
 
-/// With substeps that let contacts stop them. (By 10 planes have to, and what these take back is
-/// given to nobody: docs/contact.md.)
+/// (By xpbd with substeps that let its contacts stop them.)
 TEST_P(Resting, HeavyOnesKeepMomentumToo) {
+    const bool is_xpbd = GetParam() == Method::kXpbd;
     for (const double ratio : {10.0, 100.0}) {
         for (const int iterations : {2, 8}) {
-            ManualRun run(scene_of(meeting_blocks(iterations, 40, ratio)));
-            const bool is_xpbd = GetParam() == Method::kXpbd;
+            ManualRun run(scene_of(meeting_blocks(iterations, is_xpbd ? 40 : 10, ratio)));
             EXPECT_LT(momentum_lost(run), is_xpbd ? 0.05 : 2e-4)
                 << "1 : " << ratio << ", " << iterations << " iterations";
             EXPECT_LT(momentum_of(run, 0).velocity.x, -1.0) << "the light one turns round";
@@ -172,7 +177,7 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
 /// 1 : 1000.
 TEST_P(Resting, LightBlockBearsAHeavyOne) {
     if (GetParam() == Method::kXpbd) GTEST_SKIP() << "lets it sink, and says so: energy_test.cpp";
-    ManualRun run(scene_of(head(8, "friction = 0.5\n") + kFloor +
+    ManualRun run(scene_of(head(many_iterations(), "friction = 0.5\n") + kFloor +
                            block("light", {0, 0.0535, 0}, 2.0, 1e6, 0) +
                            block("heavy", {0, 0.157, 0}, 2000.0, 1e6, 0)));
     run.run(30);
