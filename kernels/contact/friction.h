@@ -2,14 +2,14 @@
 #define WEFT_KERNELS_CONTACT_FRICTION_H
 
 // Coulomb friction, smoothed where it sticks (Li et al. 2020, IPC, section 5): two surfaces that
-// press each other by N and have slid by a way u since the substep's begin rub by
+// press each other by N and have slid by a way u rub by
 //
 //   mu N f(|u|/e) u/|u|,      f(y) = 2y - y^2 below 1, and 1 beyond
 //
-// so what sticks creeps, by less than e in a substep. N and the tangents are those at hand and no
-// variables; in these terms the force is the slope of mu N D(|u|), of which kernels need no value.
-// D is concave in |u|^2, so that mu N f/|u| |u|^2/2 bounds it from above where they touch: it is
-// the curvature that rows.h takes, and an iteration lowers what it is made for.
+// so what sticks gives way by less than e. N and the tangents are those at hand and no variables;
+// in these terms the force is the slope of mu N D(|u|), of which kernels need no value. D is
+// concave in |u|^2, so that mu N f/|u| |u|^2/2 bounds it from above where they touch: it is the
+// curvature that rows.h takes, and an iteration lowers what it is made for.
 
 #include "kernels/platform.h"
 #include "kernels/vector.h"

@@ -39,6 +39,7 @@ WEFT_INLINE real weight_of_side(real4 w) {
 /// sides        [entries] written: n; the gap [m]
 /// slips        [entries] written: of this side along the other one [m]; the gap where inertia
 ///              leads [m]
+/// earlier_slips  [entries] as the slips of gather_contacts
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
 WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
@@ -49,10 +50,11 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
             WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
             WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
             WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
-            WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
-            WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* standing,
-            int column_count, int body_count, int instance) {
+            WEFT_GLOBAL const float4* earlier_slips, WEFT_GLOBAL const int* push_rows,
+            WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes,
+            WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
+            WEFT_GLOBAL float4* standing, int column_count, int body_count, float friction,
+            int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
@@ -91,8 +93,9 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
                                               gather_whole(corner2, entry), c3);
             const mask counts_here = both(both(on, one_side != other_side), first == vertex);
             if (any_item(counts_here)) {
-                const contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3,
-                                                     normals, weights, measures, entry);
+                contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3,
+                                               normals, weights, measures, entry);
+                if (friction > 0.0f) c = with_earlier_slip(c, earlier_slips, entry);
                 const whole opposite = one_side == own_body ? other_side : one_side;
                 const whole own_leader =
                     gather_whole(group_leaders, address(smaller_whole(own_body, last_body)));

@@ -17,7 +17,8 @@
 // others stand still: from a snapshot it diverges.)
 
 // Friction needs no more than that. At the anchors the way r between the closest points is d n, so
-// what leads along the surface of r(s) = sum w_j s_j is how far the two have slid since.
+// what leads along the surface of r(s) = sum w_j s_j is how far the two have slid since, and with
+// what they had slid before (sticking.h) how far they have in all.
 
 #include "kernels/contact/energy.h"
 #include "kernels/contact/friction.h"
@@ -30,7 +31,7 @@ WEFT_KERNELS_BEGIN
 /// One entry of a vertex' row, at a snapshot.
 typedef struct {
     real3 normal;
-    real3 slip;      ///< of this side along the other one since the substep's begin [m]
+    real3 slip;      ///< of this side along the other one [m]
     real own;        ///< |w| of the vertex
     real spread;     ///< W |w|
     real gap;        ///< [m]
@@ -65,6 +66,14 @@ load_contact(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL const int* corner0,
     c.spread = m.y;
     c.stiffness = m.z;
     c.range = m.w;
+    return c;
+}
+
+/// With the slip that was there when the substep began (sticking.h).
+/// slips  [entries] xyz [m]
+WEFT_INLINE contact_entry with_earlier_slip(contact_entry c, WEFT_GLOBAL const float4* slips,
+                                            integer entry) {
+    c.slip = add(c.slip, xyz(gather4(slips, entry)));
     return c;
 }
 
@@ -110,6 +119,8 @@ WEFT_INLINE derivatives add_push(derivatives s, contact_entry c, mask on, real3 
 /// normals     [entries] xyz: n, away from the other surface; w: the gap where inertia leads [m]
 /// weights     [entries] w_j, those of the vertex' side positive
 /// measures    [entries] |w| of the vertex, W |w|, stiffness [N/m], range [m]
+/// slips       [entries] xyz: those that the substep began with [m] (sticking.h); not read without
+///             friction
 /// sums        [9 * items] see descent/rows.h
 /// friction, creep  as in add_push
 WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
@@ -118,8 +129,9 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
             WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
             WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* sums, int item_count,
-            int vertex_count, int iteration, float friction, float creep) {
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
+            WEFT_GLOBAL float* sums, int item_count, int vertex_count, int iteration,
+            float friction, float creep) {
     const integer vertex = load_index(vertices, i);
     const whole count = gather_whole(counts, vertex);
     const int longest = largest_whole(count);
@@ -132,8 +144,9 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
             const mask on = splat_whole(k) < count;
             const integer entry =
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
-            const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
-                                                 normals, weights, measures, entry);
+            contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3, normals,
+                                           weights, measures, entry);
+            if (friction > 0.0f) c = with_earlier_slip(c, slips, entry);
             s = add_push(s, c, on, way, friction, creep);
         }
         store_derivatives(sums, i, item_count, s);

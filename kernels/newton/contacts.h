@@ -21,15 +21,17 @@ WEFT_KERNEL(couple_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL co
             WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
             WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
             WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL float* curvatures, WEFT_GLOBAL float* grips, float friction, float creep) {
+            WEFT_GLOBAL const float4* slips, WEFT_GLOBAL float* curvatures,
+            WEFT_GLOBAL float* grips, float friction, float creep) {
     const whole count = load_whole(counts, i);
     const whole start = load_whole(rows, i);
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
-        const contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
-                                             weights, measures, entry);
+        contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
+                                       weights, measures, entry);
+        if (friction > 0.0f) c = with_earlier_slip(c, slips, entry);
         const real curvature = contact_curvature(c.gap, c.range, c.stiffness);
         const real press = -splat(friction) * contact_slope(c.gap, c.range, c.stiffness);
         scatter_where(on, curvatures, entry, c.gap < c.range ? curvature : splat(0.0f));

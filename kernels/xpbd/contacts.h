@@ -125,9 +125,9 @@ WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float
             WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
             WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
             WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float* multipliers,
-            WEFT_GLOBAL float4* rubs, int vertex_count, int iteration, float friction,
-            float creep) {
+            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
+            WEFT_GLOBAL const float* multipliers, WEFT_GLOBAL float4* rubs, int vertex_count,
+            int iteration, float friction, float creep) {
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     if (longest > 0) {
@@ -141,8 +141,10 @@ WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float
             const mask on = splat_whole(k) < count;
             const integer entry =
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
-            const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
-                                                 normals, weights, measures, entry);
+            const contact_entry c =
+                with_earlier_slip(load_contact(snapshot, corner0, corner1, corner2, corner3,
+                                               normals, weights, measures, entry),
+                                  slips, entry);
             const real lightness =
                 lightness_of(snapshot, corner0, corner1, corner2, corner3, weights, entry);
             const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));

@@ -30,8 +30,9 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   columns_.shares, columns_.rows, bodies, groups.leaders, contacts_.table.rows(),
                   contacts_.table.counts(), contacts_.corner0, contacts_.corner1, contacts_.corner2,
                   contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
-                  table_.rows(), table_.counts(), table_.needs(), codes_, sides_, slips_, forces_,
-                  standing_, columns_.count, groups.body_count(), kInstance);
+                  contacts_.slips, table_.rows(), table_.counts(), table_.needs(), codes_, sides_,
+                  slips_, forces_, standing_, columns_.count, groups.body_count(), friction_,
+                  kInstance);
 }
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,

@@ -4,16 +4,19 @@
 
 namespace weft {
 
-ContactEnergy::ContactEnergy(Model& model, const ContactRows& rows, int kind)
+ContactEnergy::ContactEnergy(Model& model, const ContactRows& rows, Sticking* sticking, int kind)
     : model_(model),
       rows_(rows),
+      sticking_(sticking),
       energies_("contact.energies", 2 * model.positions->count()),
       body_{"contact energy",
             kind,
             {launch(kernels::measure_contacts, model.vertices(), *model.positions, *model.previous,
                     rows.table.rows(), rows.table.counts(), rows.corner0, rows.corner1,
                     rows.corner2, rows.corner3, rows.normals, rows.weights, rows.measures,
-                    energies_, model.vertex_count(), kInstance)}} {}
+                    energies_, model.vertex_count(), kInstance)}} {
+    if (sticking_ != nullptr) sticking_->add_keep(body_.launches);
+}
 
 void ContactEnergy::add(Step& step, const std::vector<Region>& regions, int iteration) {
     const int all = model_.vertex_count();
@@ -26,6 +29,7 @@ void ContactEnergy::add(Step& step, const std::vector<Region>& regions, int iter
             .updates(energies_, first, last)
             .updates(energies_, all + first, all + last);
         rows_.add_reads(task, region.begin, region.end, first, last);
+        if (sticking_ != nullptr) sticking_->add_keep_accesses(task, first, last);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "runtime/planning/regions.h"
 #include "simulation/contact/rows.h"
+#include "simulation/contact/sticking.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -17,8 +18,8 @@ struct StoredInContacts {
 /// The energy of contacts, as they were found at a substep's begin (kernels/contact/terms.h).
 class ContactEnergy {
 public:
-    /// kind: of its task
-    ContactEnergy(Model& model, const ContactRows& rows, int kind);
+    /// sticking: what is kept of slips in the same task; may be none. kind: of the task
+    ContactEnergy(Model& model, const ContactRows& rows, Sticking* sticking, int kind);
 
     const TaskBody& body() const { return body_; }
     /// Behind all that moves vertices in a substep: what measures it.
@@ -38,6 +39,7 @@ private:
 
     Model& model_;
     ContactRows rows_;
+    Sticking* sticking_;
     Buffer<float> energies_;
     TaskBody body_;
 };

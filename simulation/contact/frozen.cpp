@@ -24,7 +24,8 @@ FrozenContact contact_at(const ContactRows& rows, std::size_t entry, Rubbing rub
             to_vec3(n),
             double{m.w},
             double{m.z},
-            rubbing};
+            rubbing,
+            rows.have_slips() ? to_vec3(rows.slips[entry]) : Vec3{}};
 }
 
 /// Whether one of its corners has an entry of it.
@@ -79,14 +80,15 @@ void put_entry(const ContactRows& rows, std::size_t entry, const FrozenContact& 
     rows.corner3[entry] = c.corners[3];
     rows.normals[entry] = to_float4(side * c.normal, ahead);
     rows.weights[entry] = {weight(0), weight(1), weight(2), weight(3)};
+    if (rows.have_slips()) rows.slips[entry] = to_float4(side * c.slip, 0.0);
     const float own = weight(corner);
     rows.measures[entry] = {own, own * static_cast<float>(spread), static_cast<float>(c.stiffness),
                             static_cast<float>(c.range)};
 }
 
-/// What of the way leads along the surface.
+/// What of the way leads along the surface, and what did before.
 Vec3 slip_of(const FrozenContact& contact, Vec3 way) {
-    return way - contact.gap(way) * contact.normal;
+    return way - contact.gap(way) * contact.normal + contact.slip;
 }
 
 }  // namespace

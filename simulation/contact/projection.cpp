@@ -46,7 +46,7 @@ Launch ContactProjection::rub() {
     return launch(kernels::rub_contacts, model_.vertices(), *model_.positions, snapshots_,
                   rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
                   rows_.corner2, rows_.corner3, rows_.normals, rows_.weights, rows_.measures,
-                  multipliers_, *rubs_, model_.vertex_count(), kIteration,
+                  rows_.slips, multipliers_, *rubs_, model_.vertex_count(), kIteration,
                   static_cast<float>(rubbing_.friction), static_cast<float>(rubbing_.creep));
 }
 

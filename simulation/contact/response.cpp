@@ -34,8 +34,6 @@ constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels
 constexpr float kFar = 1e29f;       ///< distances beyond this are none [m]; likewise
 constexpr int kFirstRoom = 4;       ///< of a row
 
-constexpr std::size_t kShowing = 2;  ///< where the fill task's launches show the start
-
 /// The largest coordinate [m].
 double reach_of(const Model& model) {
     float most = 0.0f;
@@ -138,13 +136,15 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       normals_(contacts_.add_column<float4>("normals")),
       weights_(contacts_.add_column<float4>("weights")),
       measures_(contacts_.add_column<float4>("measures")),
+      slips_(friction_ > 0.0f ? contacts_.add_column<float4>("slips") : normals_),
+      sticking_(friction_ > 0.0f ? std::make_unique<Sticking>(model, rows(), rubbing()) : nullptr),
       least_("contact.least", model.positions->count()),
       nearest_("contact.nearest", model.positions->count()),
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
       cut_ways_("contact.cut_ways", model.positions->count()),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
-      energy_(model, rows(), fill_kind_ + 1) {
+      energy_(model, rows(), sticking_.get(), fill_kind_ + 1) {
     copy(contact_stiffness(model), stiffness_);
     copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
     make_fill();
@@ -173,9 +173,11 @@ void ContactResponse::make_fill() {
                 pairs_.patch_high(), static_cast<Buffer<int>&>(pairs_.buffers().bodies),
                 motion_.carried(), motion_.chunk_of(), motion_.fences(), motion_.strays(),
                 motion_.body_count(), motion_.chunk_count(), kInstance)}};
+    if (sticking_) sticking_->add_recall(fill_.launches);
     if (!model_.scene.contact->planes) return;
     fill_.launches.insert(fill_.launches.begin() + 1,
                           truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_));
+    ++showing_;
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {
@@ -244,6 +246,7 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     for (Buffer<float4>* column : {&normals_, &weights_, &measures_}) {
         task.updates(*column, contacts_.entries());
     }
+    if (sticking_) sticking_->add_recall_accesses(task);
     task.updates(least_, first, last)
         .updates(nearest_, first, last)
         .updates(cut_, first, last)
@@ -283,8 +286,8 @@ Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& po
                                     Buffer<float>& sums) {
     return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
                   contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, sums, items.count(), second_half, kIteration,
-                  friction_, creep_);
+                  normals_, weights_, measures_, slips_, sums, items.count(), second_half,
+                  kIteration, friction_, creep_);
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
@@ -332,8 +335,8 @@ void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, i
 
 /// Both halves: who hears late of others sees of them where they began, not an earlier substep.
 void ContactResponse::show_start(Launch even, Launch odd) {
-    fill_.launches[kShowing] = std::move(even);
-    fill_.launches[kShowing + 1] = std::move(odd);
+    fill_.launches[showing_] = std::move(even);
+    fill_.launches[showing_ + 1] = std::move(odd);
 }
 
 void ContactResponse::add_count(std::vector<Launch>& launches) {
@@ -377,7 +380,13 @@ std::string ContactResponse::trouble() const {
 }
 
 ContactRows ContactResponse::rows() {
-    return {contacts_, corner0_, corner1_, corner2_, corner3_, normals_, weights_, measures_};
+    return {contacts_, corner0_, corner1_,  corner2_, corner3_,
+            normals_,  weights_, measures_, slips_};
+}
+
+std::vector<BufferStorage*> ContactResponse::state() {
+    if (!sticking_) return {};
+    return {&sticking_->kept()};
 }
 
 Rubbing ContactResponse::rubbing() const {

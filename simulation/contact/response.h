@@ -13,6 +13,7 @@
 #include "simulation/contact/energy.h"
 #include "simulation/contact/frozen.h"
 #include "simulation/contact/pairs.h"
+#include "simulation/contact/sticking.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -94,6 +95,8 @@ public:
     void put(std::span<const FrozenContact> contacts, std::span<const float4> positions,
              std::span<const float4> targets);
     ContactEnergy& energy() { return energy_; }
+    /// What a simulation carries from frame to frame; see Solver::state().
+    std::vector<BufferStorage*> state();
 
 private:
     /// The surface as rows of contacts want it, in the model's vertices.
@@ -132,11 +135,14 @@ private:
     Buffer<float4>& planes_;
     Buffer<int>&corner0_, &corner1_, &corner2_, &corner3_;
     Buffer<float4>&normals_, &weights_, &measures_;
+    Buffer<float4>& slips_;               ///< without friction: normals_
+    std::unique_ptr<Sticking> sticking_;  ///< without friction: none
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
     Buffer<float> cut_ways_;
     Buffer<float4> snapshots_;
     TaskBody fill_;
+    std::size_t showing_ = 1;  ///< where its launches show the start
     ContactEnergy energy_;
 };
 

@@ -11,10 +11,14 @@ void ContactRows::add_reads(Step::Adding& task, int first_strip, int end_strip, 
     for (Buffer<float4>* column : {&normals, &weights, &measures}) {
         task.reads(*column, table.entries(), first_strip, end_strip);
     }
+    if (have_slips()) task.reads(slips, table.entries(), first_strip, end_strip);
 }
 
 std::vector<BufferStorage*> ContactRows::buffers() const {
-    return {&table.counts(), &corner0, &corner1, &corner2, &corner3, &normals, &weights, &measures};
+    std::vector<BufferStorage*> list{&table.counts(), &corner0, &corner1, &corner2,
+                                     &corner3,        &normals, &weights, &measures};
+    if (have_slips()) list.push_back(&slips);
+    return list;
 }
 
 }  // namespace weft

@@ -12,6 +12,9 @@ struct ContactRows {
     RowTable& table;
     Buffer<int>&corner0, &corner1, &corner2, &corner3;
     Buffer<float4>&normals, &weights, &measures;
+    Buffer<float4>& slips;  ///< without friction nobody reads them: `normals` stand in their place
+
+    bool have_slips() const { return &slips != &normals; }
 
     /// What reading the rows of strips [first_strip, end_strip) takes, which have the vertices
     /// [first, last).

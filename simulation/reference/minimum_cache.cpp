@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be raised when the meaning of the file or of an energy changes.
-constexpr double kVersion = 2;
+constexpr double kVersion = 3;
 
 /// The last digits of E - E*: errors are told to 1e-8 or so. (Those of x would take as long again.)
 constexpr double kEnoughGap = 1e-15;
@@ -40,7 +40,8 @@ std::string problem_bytes(const IncrementalPotential& potential) {
         append(bytes, std::vector<int>(c.corners.begin(), c.corners.end()));
         append(bytes, std::vector<double>(c.weights.begin(), c.weights.end()));
         append(bytes, std::vector<double>{c.normal.x, c.normal.y, c.normal.z, c.range, c.stiffness,
-                                          c.rubbing.friction, c.rubbing.creep});
+                                          c.rubbing.friction, c.rubbing.creep, c.slip.x, c.slip.y,
+                                          c.slip.z});
     }
     std::vector<Vec3> x = potential.predicted();
     for (int place = 0; place < 2; ++place) {

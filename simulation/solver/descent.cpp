@@ -1,6 +1,7 @@
 #include "simulation/solver/descent.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "kernels/descent/free_bodies.h"
@@ -36,6 +37,12 @@ void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     for (std::string& kind : contact_->kinds()) kinds.push_back(std::move(kind));
     if (!touching_) return;
     for (std::string& kind : touching_->kinds()) kinds.push_back(std::move(kind));
+}
+
+std::vector<BufferStorage*> DescentSubstep::state() {
+    std::vector<BufferStorage*> buffers{&targets_};
+    if (contact_) std::ranges::copy(contact_->state(), std::back_inserter(buffers));
+    return buffers;
 }
 
 std::vector<RowTable*> DescentSubstep::tables() {

@@ -50,6 +50,8 @@ public:
 
     /// [vertices] x~; between substeps x - x~, which the next one starts from.
     Buffer<float4>& targets() { return targets_; }
+    /// See Solver::state().
+    std::vector<BufferStorage*> state();
 
     /// The vertices of strips [first_strip, end_strip).
     std::pair<int, int> vertices(int first_strip, int end_strip) const;

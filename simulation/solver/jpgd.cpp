@@ -97,7 +97,11 @@ public:
         substep_.list_kinds(names);
         return names;
     }
-    std::vector<BufferStorage*> state() override { return {&substep_.targets(), &control_}; }
+    std::vector<BufferStorage*> state() override {
+        auto buffers = substep_.state();
+        buffers.push_back(&control_);
+        return buffers;
+    }
     std::vector<RowTable*> tables() override { return substep_.tables(); }
     ContactResponse* contact() override { return contact_; }
 

@@ -23,7 +23,7 @@ class SweepSolver : public Solver {
 public:
     std::vector<const TaskBody*> bodies() const override;
     std::vector<std::string> kinds() const override;
-    std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    std::vector<BufferStorage*> state() override { return substep_.state(); }
     std::vector<RowTable*> tables() override { return substep_.tables(); }
     ContactResponse* contact() override { return substep_.contact(); }
     std::vector<Buffer<float4>*> iterate() override;

@@ -55,6 +55,9 @@ public:
     std::vector<RowTable*> tables() override {
         return contact_ ? contact_->tables() : std::vector<RowTable*>{};
     }
+    std::vector<BufferStorage*> state() override {
+        return contact_ ? contact_->state() : std::vector<BufferStorage*>{};
+    }
     ContactResponse* contact() override { return contact_.get(); }
 
     std::vector<Buffer<float4>*> iterate() override {

@@ -70,6 +70,28 @@ def test_goes_on_where_it_ended(folder, number):
     expect_whole_run(folder)
 
 
+# Two sheets, of which the upper one starts within the thickness and slides.
+RUBBING = SCENE.replace("substeps = 400", "substeps = 20\ngravity = [1.5, -9.81, 0.0]") + """
+pins = { edges = ["x-", "x+", "z-", "z+"] }
+[[cloth]]
+name = "upper"
+grid = { size = [0.5, 0.5], resolution = [7, 7] }
+translate = [0.01, 0.015, 0.02]
+density = 0.2
+stretch = { stiffness = 1.0e2 }
+[contact]
+thickness = 0.02
+friction = 0.3
+"""
+
+
+def test_what_friction_holds_is_held_when_a_run_goes_on(folder):
+    (folder / "scene.toml").write_text(RUBBING)
+    interrupt(folder, signal.SIGKILL, 6)
+    assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
+
+
 def test_killed_again_and_again(folder):
     interrupt(folder, signal.SIGKILL, 4)
     process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", "--resume",

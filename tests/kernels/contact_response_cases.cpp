@@ -7,6 +7,7 @@
 #include "kernels/contact/fill.h"
 #include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
+#include "kernels/contact/sticking.h"
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
 #include "kernels/newton/contacts.h"
@@ -146,7 +147,7 @@ void truncate_case(KernelCase& c) {
 struct Contacts {
     Rows rows;
     Buffer<int>&corner0, &corner1, &corner2, &corner3;
-    Buffer<float4>&normals, &weights, &measures;
+    Buffer<float4>&normals, &weights, &measures, &slips;
 
     explicit Contacts(KernelCase& c)
         : rows(c, "contacts", c.items, kRoom),
@@ -156,7 +157,8 @@ struct Contacts {
           corner3(add_indices(c, "corner3", rows.entries, c.items)),
           normals(add_normals(c, "normals", rows.entries, -kRange, 2.0f * kRange)),
           weights(c.add<float4>("weights", rows.entries)),
-          measures(c.add<float4>("measures", rows.entries)) {
+          measures(c.add<float4>("measures", rows.entries)),
+          slips(add_points(c, "earlier_slips", rows.entries)) {
         for (std::size_t e = 0; e < weights.count(); ++e) {
             const float u = c.random.real(0.0f, 0.5f);
             const float v = c.random.real(0.0f, 0.5f);
@@ -176,7 +178,7 @@ void gather_case(KernelCase& c) {
     c.launch = launch(kernels::gather_contacts, c.segments, positions, snapshots, vertices,
                       contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
                       contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, sums, c.items, c.items, kIteration,
+                      contacts.measures, contacts.slips, sums, c.items, c.items, kIteration,
                       c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
@@ -188,7 +190,8 @@ void couple_case(KernelCase& c) {
     c.launch = launch(kernels::couple_contacts, c.segments, positions, contacts.rows.rows,
                       contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
                       contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
-                      curvatures, grips, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
+                      contacts.slips, curvatures, grips,
+                      c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f);
 }
 
 void multiply_case(KernelCase& c) {
@@ -254,6 +257,24 @@ void measure_case(KernelCase& c) {
                       contacts.measures, energies, c.items, kInstance);
 }
 
+void recall_case(KernelCase& c) {
+    Contacts contacts(c);
+    auto& kept = add_points(c, "kept", 3 * c.items);
+    c.launch =
+        launch(kernels::recall_slips, c.segments, kept, contacts.rows.rows, contacts.rows.counts,
+               contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
+               contacts.normals, contacts.weights, contacts.slips, c.items);
+}
+
+void keep_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& kept = add_points(c, "kept", 3 * c.items);
+    c.launch = launch(kernels::keep_slips, c.segments, contacts.positions, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      contacts.slips, kept, c.items, 0.3f);
+}
+
 void share_case(KernelCase& c) {
     OwnContacts contacts(c);
     auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
@@ -278,10 +299,11 @@ void rub_case(KernelCase& c) {
     auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
     for (float& l : multipliers.span()) l = std::max(c.random.real(-0.02f, 0.1f), 0.0f);
     auto& rubs = add_points(c, "rubs", contacts.rows.entries);
-    c.launch = launch(kernels::rub_contacts, c.segments, contacts.positions, snapshots,
-                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
-                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, multipliers, rubs, c.items, kIteration, 0.3f, 0.1f);
+    c.launch =
+        launch(kernels::rub_contacts, c.segments, contacts.positions, snapshots, contacts.rows.rows,
+               contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+               contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+               contacts.slips, multipliers, rubs, c.items, kIteration, 0.3f, 0.1f);
 }
 
 /// Lists of random entries: begin [items + 1], list.
@@ -376,13 +398,13 @@ void collect_case(KernelCase& c) {
     for (float4& m : contacts.measures.span()) m.x += 0.5f;
     Pushes pushes(c);
     auto& needs = add_indices(c, "push_needs", c.items, 9);
-    c.launch =
-        launch(kernels::collect_pushes, c.segments, contacts.positions, targets, columns.members,
-               columns.shares, columns.rows, bodies, leaders, contacts.rows.rows,
-               contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
-               contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
-               pushes.rows.rows, pushes.rows.counts, needs, pushes.codes, pushes.sides,
-               pushes.slips, pushes.forces, pushes.standing, c.items, kBodies, kInstance);
+    c.launch = launch(
+        kernels::collect_pushes, c.segments, contacts.positions, targets, columns.members,
+        columns.shares, columns.rows, bodies, leaders, contacts.rows.rows, contacts.rows.counts,
+        contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3, contacts.normals,
+        contacts.weights, contacts.measures, contacts.slips, pushes.rows.rows, pushes.rows.counts,
+        needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces, pushes.standing, c.items,
+        kBodies, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, kInstance);
 }
 
 void lags_case(KernelCase& c) {
@@ -465,7 +487,8 @@ const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&
     add_case("rub_contacts", rub_case) && add_case("couple_contacts", couple_case) &&
-    add_case("multiply_contacts", multiply_case);
+    add_case("multiply_contacts", multiply_case) && add_case("recall_slips", recall_case) &&
+    add_case("keep_slips", keep_case);
 
 }  // namespace
 }  // namespace weft::test

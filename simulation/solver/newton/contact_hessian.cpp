@@ -15,7 +15,7 @@ Launch ContactHessian::couple() {
     return launch(kernels::couple_contacts, model_.vertices(), *model_.positions,
                   rows_.table.rows(), rows_.table.counts(), rows_.corner0, rows_.corner1,
                   rows_.corner2, rows_.corner3, rows_.normals, rows_.weights, rows_.measures,
-                  curvatures_, grips_, static_cast<float>(rubbing_.friction),
+                  rows_.slips, curvatures_, grips_, static_cast<float>(rubbing_.friction),
                   static_cast<float>(rubbing_.creep));
 }
 

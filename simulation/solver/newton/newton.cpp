@@ -105,7 +105,7 @@ public:
         substep_.list_kinds(names);
         return names;
     }
-    std::vector<BufferStorage*> state() override { return {&substep_.targets()}; }
+    std::vector<BufferStorage*> state() override { return substep_.state(); }
     std::vector<RowTable*> tables() override { return substep_.tables(); }
     ContactResponse* contact() override { return contact_; }
 

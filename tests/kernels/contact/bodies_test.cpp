@@ -112,8 +112,8 @@ struct CrossedEdges {
         const Launch launched =
             launch(kernels::collect_pushes, Segments{}, positions, targets, members, shares,
                    columns, bodies, leaders, rows, counts, corner0, corner1, corner2, corner3,
-                   normals, weights, measures, push_rows, push_counts, push_needs, codes, sides,
-                   slips, forces, standing, 2, 2, 0);
+                   normals, weights, measures, normals, push_rows, push_counts, push_needs, codes,
+                   sides, slips, forces, standing, 2, 2, 0.0f, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 2);
     }
 };

@@ -56,6 +56,7 @@ public:
           normals_(table_.add_column<float4>("normals")),
           weights_(table_.add_column<float4>("weights")),
           measures_(table_.add_column<float4>("measures")),
+          slips_(table_.add_column<float4>("slips")),
           multipliers_(table_.add_column<float>("multipliers")),
           rubs_(table_.add_column<float4>("rubs")),
           snapshots_("snapshots", 2 * kVertices) {
@@ -91,10 +92,10 @@ public:
         Buffer<int> vertices("vertices", kVertices);
         for (int v = 0; v < kVertices; ++v) vertices[at(v)] = v;
         Buffer<float> sums("sums", 9 * kVertices);
-        const Launch gather = launch(kernels::gather_contacts, Segments{}, positions, positions,
-                                     vertices, table_.rows(), table_.counts(), *corners_[0],
-                                     *corners_[1], *corners_[2], *corners_[3], normals_, weights_,
-                                     measures_, sums, kVertices, 0, kIteration, friction, kSlow);
+        const Launch gather = launch(
+            kernels::gather_contacts, Segments{}, positions, positions, vertices, table_.rows(),
+            table_.counts(), *corners_[0], *corners_[1], *corners_[2], *corners_[3], normals_,
+            weights_, measures_, slips_, sums, kVertices, 0, kIteration, friction, kSlow);
         run_on_host(gather, gather.kernel->scalar, 0, kVertices);
         std::vector<Vec3> gradient;
         for (std::size_t v = 0; v < kVertices; ++v) {
@@ -117,7 +118,7 @@ public:
         if (friction == 0.0f) return;
         const Launch rub = launch(kernels::rub_contacts, Segments{}, positions, snapshots_,
                                   table_.rows(), table_.counts(), *corners_[0], *corners_[1],
-                                  *corners_[2], *corners_[3], normals_, weights_, measures_,
+                                  *corners_[2], *corners_[3], normals_, weights_, measures_, slips_,
                                   multipliers_, rubs_, kVertices, kIteration, friction, kSlow);
         run_on_host(rub, rub.kernel->scalar, 0, kVertices, 0, iteration);
     }
@@ -188,7 +189,7 @@ private:
     Buffer<int> begin_;
     RowTable table_;
     std::array<Buffer<int>*, 4> corners_;
-    Buffer<float4>&normals_, &weights_, &measures_;
+    Buffer<float4>&normals_, &weights_, &measures_, &slips_;
     Buffer<float>& multipliers_;
     Buffer<float4>& rubs_;
     Buffer<float4> snapshots_;

@@ -14,7 +14,6 @@ namespace weft::test {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kCreepSpeed = 1e-3;  ///< [m/s] below which friction sticks
 
 /// A patch of cloth on a slope of that tangent.
 Scene slope(double tangent, const std::string& friction, int frames, Method method = Method::kVbd) {
@@ -81,14 +80,14 @@ TEST_P(Friction, SlidesAsFastAsCoulombSays) {
     }
 }
 
-TEST_P(Friction, CreepsNoFasterThanItIsSmoothed) {
+/// It gives way by less than the creep, once, and then rests to the rounding of places.
+TEST_P(Friction, WhatSticksStays) {
     for (const double share : {0.25, 0.5, 0.8}) {
         Patch patch(slope(share * 0.5, "friction = 0.5\n", 0, GetParam()));
         patch.go(12);
         const double before = patch.place().x;
-        patch.go(12);
-        const double expected = kCreepSpeed * (1.0 - std::sqrt(1.0 - share));
-        EXPECT_NEAR((patch.place().x - before) / 0.2, expected, 0.03 * expected) << share;
+        patch.go(36);
+        EXPECT_LT(std::abs(patch.place().x - before), 5e-7) << share;
         EXPECT_LT(std::abs(patch.place().z - 0.003), 1e-4);
     }
 }

@@ -16,7 +16,7 @@ namespace weft::test {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kCreep = 1e-3;  ///< of what sticks, at the most [m/s]
+constexpr double kSway = 3e-4;  ///< of what rests, at the most [m]
 
 std::string head(int iterations, const std::string& contact, const std::string& gravity = "",
                  int substeps = 10) {
@@ -99,8 +99,8 @@ protected:
     static int many_iterations() { return GetParam() == Method::kJpgd ? 80 : 20; }
 };
 
-/// Each block is pushed by its weight, on average of its swings: what lies below it carries all that
-/// is above. They creep no faster than what sticks may. (By fewer iterations they sway.)
+/// Each block is pushed by its weight, on average of its swings: what lies below it carries all
+/// that is above. What sticks stays. (By fewer iterations it sways, and walks.)
 TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
     std::string text = head(many_iterations(), "friction = 0.3\n") + kFloor;
     for (int i = 0; i < 3; ++i) {
@@ -122,8 +122,9 @@ TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
         const auto i = static_cast<std::size_t>(b - 1);
         const Momentum now = momentum_of(run, b);
         // What xpbd's contacts are worth is in their multipliers, not in the gaps.
-        if (GetParam() != Method::kXpbd) EXPECT_NEAR(pushes[i] / (now.mass * kGravity), 1.0, 0.1) << b;
-        EXPECT_LT(length(now.place - before[i]), kFrames / 60.0 * kCreep) << b;
+        if (GetParam() != Method::kXpbd)
+            EXPECT_NEAR(pushes[i] / (now.mass * kGravity), 1.0, 0.1) << b;
+        EXPECT_LT(length(now.place - before[i]), kSway) << b;
     }
 }
 
@@ -183,7 +184,7 @@ TEST_P(Resting, LightBlockBearsAHeavyOne) {
     run.run(30);
     const Vec3 before = momentum_of(run, 2).place;
     run.run(20);
-    EXPECT_LT(length(momentum_of(run, 2).place - before), 20.0 / 60.0 * kCreep);
+    EXPECT_LT(length(momentum_of(run, 2).place - before), kSway);
     EXPECT_GT(momentum_of(run, 2).place.y - momentum_of(run, 1).place.y, 0.1)
         << "it is not crushed";
 }

@@ -110,16 +110,19 @@ TEST_P(Unconverged, RubsOnClothAsCoulombSays) {
     }
 }
 
-/// On the other side of tan = mu: what sticks may creep. (By jpgd what presses comes and goes, and
-/// a few iterations creep faster: docs/contact.md.)
+/// On the other side of tan = mu: what sticks stays. (By jpgd what presses comes and goes, and few
+/// iterations let it creep: docs/contact.md.)
 TEST_P(Unconverged, SticksToClothAsCoulombSays) {
     const std::string friction = kContact + "friction = 0.4\n";
-    for (const int iterations : {GetParam() == Method::kJpgd ? 40 : 8, 40}) {
+    const bool is_jpgd = GetParam() == Method::kJpgd;
+    const bool is_xpbd = GetParam() == Method::kXpbd;
+    const double most = is_jpgd ? 2e-4 : (is_xpbd ? 1e-4 : 2e-6);
+    for (const int iterations : {is_jpgd ? 40 : 8, 40}) {
         ManualRun run(on_slope(head(iterations, friction) + kSlope + stiff(0.0034, 13)));
         run.run(12);
         const double before = momentum_of(run, 1).place.x;
         run.run(12);
-        EXPECT_LT(std::abs(momentum_of(run, 1).place.x - before), 0.2e-3)
+        EXPECT_LT(std::abs(momentum_of(run, 1).place.x - before), most)
             << iterations << " iterations";
     }
 }
