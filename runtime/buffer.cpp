@@ -16,16 +16,18 @@ namespace {
 constexpr std::size_t kPage = 4096;  // what OpenCL drivers ask of memory that they use in place
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-/// Large buffers on large pages: gathers then miss the address caches less often.
+/// Large buffers on large pages: gathers then miss the address caches less often. Not a last one
+/// that would be emptier than half: there are dozens of buffers.
 void ask_for_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-    ::madvise(memory, bytes, MADV_HUGEPAGE);  // a hint
+    const std::size_t pages = (bytes + kHugePage / 2) / kHugePage;
+    ::madvise(memory, pages * kHugePage, MADV_HUGEPAGE);  // a hint
 #endif
 }
 
 /// Zeros that take memory, and time, only where they are touched.
 std::shared_ptr<void> mapped_pages(std::size_t bytes) {
-    const std::size_t mapped = bytes + kHugePage;  // some of it before the first whole page
+    const std::size_t mapped = bytes + 2 * kHugePage;  // with what lies beside whole pages
     void* const start =
         ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (start == MAP_FAILED) throw std::bad_alloc();
@@ -44,10 +46,7 @@ std::shared_ptr<void> allocated_pages(std::size_t bytes) {
 }
 
 /// More than that many bytes: drivers may look a little beyond the end.
-std::size_t padded(std::size_t bytes) {
-    const std::size_t page = bytes < kHugePage ? kPage : kHugePage;
-    return (bytes / page + 1) * page;
-}
+std::size_t padded(std::size_t bytes) { return (bytes / kPage + 1) * kPage; }
 
 std::shared_ptr<void> zeroed_pages(std::size_t bytes) {
     return bytes < kHugePage ? allocated_pages(bytes) : mapped_pages(bytes);

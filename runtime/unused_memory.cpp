@@ -12,14 +12,22 @@ namespace weft {
 
 namespace {
 
-constexpr std::size_t kLarge = std::size_t{2} << 20;  ///< [B] below, it is not worth a page fault
+constexpr int kLarge = 2 << 20;  ///< [B] below, it is not worth a page fault
 
 }  // namespace
 
 void give_back([[maybe_unused]] BufferStorage& buffer) {
 #ifdef __linux__
     // Such buffers begin with a page, and are followed by room of their own (buffer.h).
-    if (buffer.bytes() >= kLarge) ::madvise(buffer.host(), buffer.bytes(), MADV_DONTNEED);
+    if (buffer.bytes() >= std::size_t{kLarge})
+        ::madvise(buffer.host(), buffer.bytes(), MADV_DONTNEED);
+#endif
+}
+
+void give_back_large_lists() {
+#ifdef __GLIBC__
+    ::mallopt(M_MMAP_THRESHOLD, kLarge);
+    ::mallopt(M_TRIM_THRESHOLD, 2 * kLarge);
 #endif
 }
 

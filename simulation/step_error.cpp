@@ -62,7 +62,7 @@ StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
     }
     for (const float4& x : model_->positions->span()) inverse_masses_.push_back(x.w);
     // What has served to set up.
-    model_->triangles = {};
+    give_back(model_->triangles);
     model_->edges = nullptr;
     give_back_freed();
 }
@@ -83,8 +83,8 @@ std::optional<StepEstimate> StepError::estimate(const SubstepEnds& ends) {
     start_at(ends);
     const auto estimate = estimate_begun();
     newton_->rest();
-    targets_ = reached_ = before_ = {};
-    contacts_ = {};
+    for (auto* list : {&targets_, &reached_, &before_}) give_back(*list);
+    give_back(contacts_);
     give_back_freed();
     return estimate;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/unused_memory.h"
 #include "simulation/families/couplings.h"
 #include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
@@ -51,7 +52,7 @@ public:
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
     /// All tables are: what only filling needs takes no more memory.
-    void filled() { couplings_ = {}; }
+    void filled() { give_back(couplings_); }
 
 private:
     int arity_;

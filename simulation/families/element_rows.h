@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/unused_memory.h"
 #include "simulation/families/family.h"
 #include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
@@ -30,7 +31,7 @@ public:
     /// table: [columns * entries] column-major
     void fill(Buffer<float>& table, const Numbers& numbers) const;
     /// All tables are: what only filling needs takes no more memory.
-    void filled() { corners_ = {}; }
+    void filled() { give_back(corners_); }
 
 private:
     /// A corner of an element, seen from the vertex that it is at.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "runtime/launch.h"
+#include "runtime/unused_memory.h"
 #include "simulation/topology/layout.h"
 
 namespace weft {
@@ -47,7 +48,7 @@ public:
     /// New element -> element as it was given; for those who make their tables.
     int original(int element) const { return order_[static_cast<std::size_t>(element)]; }
     /// All tables are made.
-    void forget_originals() { order_ = {}; }
+    void forget_originals() { give_back(order_); }
 
     /// [arity * count] column-major
     Buffer<int>& vertices() { return vertices_; }

@@ -102,6 +102,9 @@ public:
     virtual ~BlockRows() = default;
     /// Launches that follow each other.
     virtual std::vector<Launch> couple(const BlockTarget& target) = 0;
+    /// [blocks] What couple() writes where that is the same in every state, and a block is one
+    /// number; null: it is not.
+    virtual Buffer<float>* constant_blocks() { return nullptr; }
 };
 
 /// Elements whose vertices are computed together, in one sweep.
@@ -145,6 +148,8 @@ public:
     /// How many numbers a block of the Hessian has: 1, 6 or 9 (kernels/newton/blocks.h).
     virtual int block_columns() const { return 9; }
     virtual std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) = 0;
+    /// Whether E = 1/2 x^T H x with the H of constant_blocks(): gradients are H x then.
+    virtual bool is_quadratic() const { return false; }
     /// Whether elements may be stencils of SOSD; else their vertices belong to other stencils or
     /// are solved one by one.
     virtual bool has_stencils() const { return false; }

@@ -7,12 +7,12 @@
 namespace weft {
 
 SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_begin,
-                       std::span<const int> lengths)
-    : slices_(name, 2 * lengths.size()) {
+                       std::span<const int> lengths, int stride)
+    : stride_(stride), slices_(name, 2 * lengths.size()) {
     WEFT_ASSERT(segment_begin.back() == std::ssize(lengths));
     for (std::size_t s = 0; s + 1 < segment_begin.size(); ++s) {
-        for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += kStride) {
-            const int end = std::min(first + kStride, segment_begin[s + 1]);
+        for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += stride) {
+            const int end = std::min(first + stride, segment_begin[s + 1]);
             int longest = 0;
             for (int i = first; i < end; ++i) {
                 WEFT_ASSERT(lengths[static_cast<std::size_t>(i)] >= 0);
@@ -22,7 +22,7 @@ SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_beg
                 slices_[2 * static_cast<std::size_t>(i)] = entry_count_ + i - first;
                 slices_[2 * static_cast<std::size_t>(i) + 1] = longest;
             }
-            entry_count_ += kStride * longest;
+            entry_count_ += stride * longest;
         }
     }
 }

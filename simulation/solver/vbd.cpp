@@ -10,7 +10,8 @@ namespace {
 class VbdSolver final : public SweepSolver {
 public:
     explicit VbdSolver(Model& model) : SweepSolver(model) {
-        add_sweep(make_vertex_layout(model.stencils(), model.strips), [](const SweepTarget& t) {
+        const VertexLayout layout = make_vertex_layout(model.stencils(), model.strips);
+        add_sweep(layout, [](const SweepTarget& t) {
             return std::vector{launch(kernels::solve_vertices, t.items.segments(t.phase),
                                       t.positions, t.targets, t.items.vertices(), t.sums,
                                       t.items.count(), t.inverse_h2)};

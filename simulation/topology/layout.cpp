@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "runtime/unused_memory.h"
 #include "scheduler/assert.h"
 #include "simulation/topology/colouring.h"
 
@@ -107,9 +108,10 @@ std::vector<int> sort_into_segments(const std::vector<Place>& places, std::span<
 
 ElementLayout make_layout(const Stencils& kind, const Strips& strips) {
     const int vertex_count = static_cast<int>(strips.rank.size());
-    const Stencils renamed = rename_vertices(kind, strips.rank);
+    Stencils renamed = rename_vertices(kind, strips.rank);
     const std::vector<int> by_vertex = sort_by_lowest_vertex(renamed, vertex_count);
     const Stencils sorted = reorder(renamed, by_vertex);
+    give_back(renamed.vertices);
     const std::vector<Place> places = find_places(sorted, strips);
 
     ElementLayout layout;

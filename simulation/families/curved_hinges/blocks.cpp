@@ -1,32 +1,10 @@
 #include "kernels/newton/hinges.h"
+#include "simulation/families/constant_blocks.h"
 #include "simulation/families/curved_hinges/curved_hinges.h"
 
 namespace weft {
 
 namespace {
-
-/// Of both parts of J_j = q_j I + [v_j]x the second one is left out; what is left is constant.
-class NearlyFlatBlocks final : public BlockRows {
-public:
-    NearlyFlatBlocks(const CurvedHinges& hinges, const BlockList& list)
-        : weights_("curved_hinges.block_weights", static_cast<std::size_t>(list.count())) {
-        for (int block = 0; block < list.count(); ++block) {
-            double sum = 0.0;
-            for (const Coupling& c : list[block]) {
-                sum -= hinges.weight(c.element, c.j) * hinges.weight(c.element, c.k);
-            }
-            weights_[block] = static_cast<float>(sum);
-        }
-    }
-
-    std::vector<Launch> couple(const BlockTarget& t) override {
-        return {launch(kernels::couple_hinges, t.segments, weights_, t.blocks, t.block_count,
-                       t.columns, t.fresh)};
-    }
-
-private:
-    Buffer<float> weights_;
-};
 
 class CurvedHingeBlocks final : public BlockRows {
 public:
@@ -58,8 +36,9 @@ private:
 
 }  // namespace
 
+/// Of both parts of J_j = q_j I + [v_j]x the second one is left out where hinges are nearly flat.
 std::unique_ptr<BlockRows> CurvedHinges::make_block_rows(const BlockList& list) {
-    if (is_nearly_flat_) return std::make_unique<NearlyFlatBlocks>(*this, list);
+    if (is_nearly_flat_) return std::make_unique<ConstantBlocks<CurvedHinges>>(*this, list);
     return std::make_unique<CurvedHingeBlocks>(*this, list);
 }
 

@@ -23,6 +23,7 @@ public:
     Launch energy_terms(const TermTarget& target) override;
     int block_columns() const override { return 1; }
     std::unique_ptr<BlockRows> make_block_rows(const BlockList& list) override;
+    bool is_quadratic() const override { return true; }
     double sum_energies(int begin, int end, std::span<const float4> positions) const override;
     double energy(int hinge, const Vec3* x) const override;
     void gradient(int hinge, const Vec3* x, Vec3* gradient) const override;

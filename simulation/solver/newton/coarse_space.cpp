@@ -94,7 +94,8 @@ void CoarseSpace::fill_members(const Model& model) {
     for (const auto& members : aggregates_.members) {
         lengths.push_back(static_cast<int>(members.size()));
     }
-    rows_ = std::make_unique<SlicedRows>("coarse.rows", strip_aggregates_.span(), lengths);
+    rows_ = std::make_unique<SlicedRows>("coarse.rows", strip_aggregates_.span(), lengths,
+                                         std::min(SlicedRows::kStride, aggregates_.per_strip));
     members_ = std::make_unique<Buffer<int>>("coarse.members", at(rows_->entry_count()));
     shares_ = std::make_unique<Buffer<float>>("coarse.shares", at(rows_->entry_count()));
     for (int a = 0; a < aggregates_.count(); ++a) {
@@ -211,7 +212,7 @@ void CoarseSpace::add_invert_accesses(Step::Adding& task, int first_strip, int e
 
 Launch CoarseSpace::restrict(Buffer<float4>& residuals) {
     return launch(kernels::restrict_residuals, by_strip_, residuals, *members_, *shares_,
-                  rows_->slices(), restricted_, SlicedRows::kStride);
+                  rows_->slices(), restricted_, rows_->stride());
 }
 
 void CoarseSpace::add_restrict_accesses(Step::Adding& task, int first_strip, int end_strip) {

@@ -23,7 +23,7 @@ ConjugateGradients::ConjugateGradients(Model& model, DescentSubstep& substep)
     : model_(model),
       substep_(substep),
       items_(model.strips),
-      derivatives_(model, items_),
+      sums_("newton.sums", 9 * model.positions->count()),
       hessian_(model, items_),
       coarse_(model, make_aggregates(model)),
       halo_(model),
@@ -88,17 +88,17 @@ void ConjugateGradients::place_terms() {
 }
 
 std::vector<Launch> ConjugateGradients::linearise() {
-    auto launches = derivatives_.gather_gradients(kInnerPhase, *model_.positions);
+    auto launches = hessian_.gather_gradients(*model_.positions, sums_);
     append(launches, hessian_.couple(linearised_at()));
-    append(launches, hessian_.sum_rows(derivatives_.sums()));
+    append(launches, hessian_.sum_rows(sums_));
     if (contacts_) {
-        launches.push_back(substep_.contact()->gather_at(
-            items_.segments(kInnerPhase), *model_.positions, items_, derivatives_.sums()));
+        launches.push_back(substep_.contact()->gather_at(items_.segments(kInnerPhase),
+                                                         *model_.positions, items_, sums_));
         launches.push_back(contacts_->couple());
     }
     launches.push_back(launch(kernels::begin_conjugate_gradients, model_.vertices(),
-                              *model_.positions, substep_.targets(), derivatives_.sums(), factors_,
-                              residuals_, searches_, applied_, moves_, model_.vertex_count(),
+                              *model_.positions, substep_.targets(), sums_, factors_, residuals_,
+                              searches_, applied_, moves_, model_.vertex_count(),
                               static_cast<float>(1.0 / (model_.h * model_.h))));
     launches.push_back(launch(kernels::begin_steps, by_strip_, scalars_));
     launches.push_back(coarse_.restrict(residuals_));
@@ -136,8 +136,8 @@ std::vector<Launch> ConjugateGradients::advance() {
 std::vector<BufferStorage*> ConjugateGradients::scratch() {
     std::vector<BufferStorage*> buffers = hessian_.scratch();
     buffers.insert(buffers.end(),
-                   {&derivatives_.sums(), &before_, &after_, &factors_, &residuals_,
-                    &preconditioned_, &products_, &searches_, &applied_, &moves_, terms_.get()});
+                   {&sums_, &before_, &after_, &factors_, &residuals_, &preconditioned_, &products_,
+                    &searches_, &applied_, &moves_, terms_.get()});
     return buffers;
 }
 

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/solver/derivatives.h"
 #include "simulation/solver/descent.h"
 #include "simulation/solver/newton/coarse_space.h"
 #include "simulation/solver/newton/contact_hessian.h"
@@ -62,7 +61,7 @@ private:
     Model& model_;
     DescentSubstep& substep_;
     VertexItems items_;
-    VertexDerivatives derivatives_;
+    Buffer<float> sums_;  ///< [9 * vertices] see kernels/descent/rows.h
     Hessian hessian_;
     std::unique_ptr<ContactHessian> contacts_;  ///< null: none
     CoarseSpace coarse_;

@@ -32,11 +32,14 @@ FamilyHessian::FamilyHessian(ElementFamily& family, const VertexItems& items, co
       others_(family.names().name + ".blocks.others",
               static_cast<std::size_t>(rows_.entry_count())),
       entry_begin_(family.names().name + ".blocks.strips", model.strips.begin.size()),
-      blocks_(family.names().name + ".blocks",
-              others_.count() * static_cast<std::size_t>(columns_)),
       vertices_(model.vertices()),
       entries_{&entry_begin_, 0, 1, model.strips.count()},
-      contributions_(family.make_block_rows(place(couplings, model.strips))) {}
+      gradients_(family.is_quadratic() ? nullptr : family.make_rows(items)),
+      contributions_(family.make_block_rows(place(couplings, model.strips))) {
+    if (contributions_->constant_blocks() != nullptr) return;
+    made_ = std::make_unique<Buffer<float>>(family.names().name + ".blocks",
+                                            others_.count() * static_cast<std::size_t>(columns_));
+}
 
 /// Fills the tables of rows, and lists what contributes to each entry.
 BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips) {
@@ -68,23 +71,28 @@ BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips)
     return list;
 }
 
+Launch FamilyHessian::gather_gradients(const DerivativeTarget& t) {
+    return gradients_ ? gradients_->gather_gradients(t) : multiply(t.positions, t.sums, t.fresh);
+}
+
 std::vector<Launch> FamilyHessian::couple(const LinearisedAt& where) {
-    return contributions_->couple({entries_, where.positions, where.before, where.after, blocks_,
+    if (!made_) return {};
+    return contributions_->couple({entries_, where.positions, where.before, where.after, *made_,
                                    rows_.entry_count(), columns_, 1});
 }
 
 Launch FamilyHessian::sum_rows(Buffer<float>& sums, int fresh) {
-    return launch(kernels::sum_block_rows, vertices_, rows_.slices(), blocks_, sums, vertex_count_,
+    return launch(kernels::sum_block_rows, vertices_, rows_.slices(), blocks(), sums, vertex_count_,
                   rows_.entry_count(), columns_, SlicedRows::kStride, fresh);
 }
 
 Launch FamilyHessian::multiply(Buffer<float4>& directions, Buffer<float>& products, int fresh) {
     if (columns_ == 1) {
         return launch(kernels::multiply_scalar_blocks, vertices_, directions, rows_.slices(),
-                      others_, blocks_, products, vertex_count_, SlicedRows::kStride, fresh);
+                      others_, blocks(), products, vertex_count_, SlicedRows::kStride, fresh);
     }
     const auto multiply_by = [&](auto kernel) {
-        return launch(kernel, vertices_, directions, rows_.slices(), others_, blocks_, products,
+        return launch(kernel, vertices_, directions, rows_.slices(), others_, blocks(), products,
                       vertex_count_, rows_.entry_count(), SlicedRows::kStride, fresh);
     };
     return columns_ == 6 ? multiply_by(kernels::multiply_symmetric_blocks)
@@ -92,14 +100,25 @@ Launch FamilyHessian::multiply(Buffer<float4>& directions, Buffer<float>& produc
 }
 
 void FamilyHessian::add_accesses(Step::Adding& task, int first_strip, int end_strip, bool writes) {
-    add_columns(task, blocks_, rows_.entry_count(), columns_, entries_.item(first_strip),
+    if (!made_) return;
+    add_columns(task, *made_, rows_.entry_count(), columns_, entries_.item(first_strip),
                 entries_.item(end_strip), writes);
 }
 
-Hessian::Hessian(Model& model, const VertexItems& items) {
+Hessian::Hessian(Model& model, VertexItems& items) : items_(items) {
     for (auto& family : model.families) {
         families_.push_back(std::make_unique<FamilyHessian>(*family, items, model));
     }
+}
+
+std::vector<Launch> Hessian::gather_gradients(Buffer<float4>& positions, Buffer<float>& sums) {
+    std::vector<Launch> launches;
+    for (const auto& family : families_) {
+        launches.push_back(
+            family->gather_gradients({items_.segments(kInnerPhase), positions, items_.vertices(),
+                                      sums, items_.count(), launches.empty() ? 1 : 0}));
+    }
+    return launches;
 }
 
 std::vector<Launch> Hessian::couple(const LinearisedAt& where) {
@@ -127,7 +146,9 @@ std::vector<Launch> Hessian::multiply(Buffer<float4>& directions, Buffer<float>&
 
 std::vector<BufferStorage*> Hessian::scratch() {
     std::vector<BufferStorage*> buffers;
-    for (const auto& family : families_) buffers.push_back(&family->blocks());
+    for (const auto& family : families_) {
+        if (BufferStorage* blocks = family->scratch()) buffers.push_back(blocks);
+    }
     return buffers;
 }
 

@@ -7,6 +7,7 @@
 #include "kernels/vbd/solve.h"
 #include "runtime/unused_memory.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
+#include "simulation/solver/derivatives.h"
 #include "simulation/solver/energy_sum.h"
 #include "simulation/solver/newton/accesses.h"
 #include "simulation/solver/newton/conjugate_gradients.h"

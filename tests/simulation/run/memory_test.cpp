@@ -109,8 +109,8 @@ TEST_P(Memory, PerVertexIsBounded) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Memory,
-                         testing::Values(Limits{"xpbd", 360.0, 1550.0},
-                                         Limits{"vbd", 660.0, 1550.0}),
+                         testing::Values(Limits{"xpbd", 335.0, 1140.0},
+                                         Limits{"vbd", 590.0, 1140.0}),
                          [](const auto& limits) { return std::string(limits.param.method); });
 
 }  // namespace

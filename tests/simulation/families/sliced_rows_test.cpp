@@ -1,0 +1,49 @@
+#include "simulation/families/sliced_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+namespace weft {
+namespace {
+
+/// Strips of items whose rows have these lengths.
+const std::vector<int> kSegments{0, 3, 3, 5, 16};
+const std::vector<int> kLengths{2, 0, 5, 1, 1, 4, 4, 4, 4, 4, 4, 4, 4, 7, 0, 1};
+
+TEST(SlicedRows, EveryEntryHasAPlaceOfItsOwn) {
+    for (const int stride : {1, 2, 4, SlicedRows::kStride}) {
+        SlicedRows rows("rows", kSegments, kLengths, stride);
+        std::set<std::size_t> places;
+        for (int i = 0; i < rows.item_count(); ++i) {
+            EXPECT_GE(rows.length(i), kLengths[static_cast<std::size_t>(i)]);
+            for (int k = 0; k < rows.length(i); ++k) {
+                EXPECT_LT(rows.entry(i, k), static_cast<std::size_t>(rows.entry_count()));
+                EXPECT_TRUE(places.insert(rows.entry(i, k)).second) << "item " << i;
+            }
+        }
+    }
+}
+
+TEST(SlicedRows, ItemsOfASliceLieSideBySide) {
+    for (const int stride : {2, 4, SlicedRows::kStride}) {
+        SlicedRows rows("rows", kSegments, kLengths, stride);
+        for (std::size_t s = 0; s + 1 < kSegments.size(); ++s) {
+            for (int i = kSegments[s]; i + 1 < kSegments[s + 1]; ++i) {
+                if ((i + 1 - kSegments[s]) % stride == 0) continue;
+                EXPECT_EQ(rows.entry(i, 0) + 1, rows.entry(i + 1, 0)) << "item " << i;
+                EXPECT_EQ(rows.length(i), rows.length(i + 1)) << "item " << i;
+            }
+        }
+    }
+}
+
+TEST(SlicedRows, AStrideOfFewItemsLeavesNoRoomEmpty) {
+    const std::vector<int> segments{0, 2, 4}, lengths{3, 3, 5, 5};
+    EXPECT_EQ(SlicedRows("rows", segments, lengths, 2).entry_count(), 2 * 3 + 2 * 5);
+    EXPECT_EQ(SlicedRows("rows", segments, lengths).entry_count(), 8 * 3 + 8 * 5);
+}
+
+}  // namespace
+}  // namespace weft
