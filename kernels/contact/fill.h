@@ -65,8 +65,8 @@ WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat
 /// Where the plane between the two sides ends, from the closest point of B on, along n. Each side
 /// gets what inertia asks for and half of what is left then, so that one which hardly moves can
 /// still be pushed, or swing; where the gap is too small for that, both get a part of it by how
-/// fast they come. What is led by the scene comes as far as it wants: the plane goes before it, also
-/// over where the other side is. (Where both are led through each other, it goes between.)
+/// fast they come. What is led by the scene comes as far as it wants: the plane goes before it,
+/// also over where the other side is. (Where both are led through each other, it goes between.)
 /// distance     of the two sides [m]
 /// a, b         the most that vertices of a side come nearer [m]
 /// led_a, led_b  likewise, of held vertices alone
@@ -81,8 +81,7 @@ WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b
     const real spare = larger(shared - both_ways, zero);
     const real met = smaller(shared / larger(both_ways, splat(1e-12f)), one);
     const real wanted = own_b * met + splat(0.5f) * spare;
-    const real bounded =
-        smaller(larger(wanted, splat(0.05f) * shared), splat(0.95f) * shared);
+    const real bounded = smaller(larger(wanted, splat(0.05f) * shared), splat(0.95f) * shared);
     const real too_far = smaller(left - least, zero);
     const real part_of_a = led_a / larger(led_a + led_b, splat(1e-12f));
     return led_b + bounded + too_far * part_of_a;
