@@ -80,7 +80,7 @@ void put_entry(const ContactRows& rows, std::size_t entry, const FrozenContact& 
     rows.corner3[entry] = c.corners[3];
     rows.normals[entry] = to_float4(side * c.normal, ahead);
     rows.weights[entry] = {weight(0), weight(1), weight(2), weight(3)};
-    if (rows.have_slips()) rows.slips[entry] = to_float4(side * c.slip, 0.0);
+    if (rows.have_slips()) rows.slips[entry] = to_float4(side * c.earlier_slip, 0.0);
     const float own = weight(corner);
     rows.measures[entry] = {own, own * static_cast<float>(spread), static_cast<float>(c.stiffness),
                             static_cast<float>(c.range)};
@@ -88,7 +88,7 @@ void put_entry(const ContactRows& rows, std::size_t entry, const FrozenContact& 
 
 /// What of the way leads along the surface, and what did before.
 Vec3 slip_of(const FrozenContact& contact, Vec3 way) {
-    return way - contact.gap(way) * contact.normal + contact.slip;
+    return way - contact.gap(way) * contact.normal + contact.earlier_slip;
 }
 
 }  // namespace

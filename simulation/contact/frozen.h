@@ -25,7 +25,7 @@ struct FrozenContact {
     double range = 0.0;      ///< [m]
     double stiffness = 0.0;  ///< [N/m]
     Rubbing rubbing;
-    Vec3 slip;           ///< of the side of positive weights when the substep began [m]
+    Vec3 earlier_slip;   ///< of the side of positive weights, when the substep began [m]
     double press = 0.0;  ///< that friction goes by [N]
 
     /// [m]; x: all vertices

@@ -40,8 +40,8 @@ std::string problem_bytes(const IncrementalPotential& potential) {
         append(bytes, std::vector<int>(c.corners.begin(), c.corners.end()));
         append(bytes, std::vector<double>(c.weights.begin(), c.weights.end()));
         append(bytes, std::vector<double>{c.normal.x, c.normal.y, c.normal.z, c.range, c.stiffness,
-                                          c.rubbing.friction, c.rubbing.creep, c.slip.x, c.slip.y,
-                                          c.slip.z});
+                                          c.rubbing.friction, c.rubbing.creep, c.earlier_slip.x,
+                                          c.earlier_slip.y, c.earlier_slip.z});
     }
     std::vector<Vec3> x = potential.predicted();
     for (int place = 0; place < 2; ++place) {
