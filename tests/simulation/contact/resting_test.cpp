@@ -122,8 +122,9 @@ TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
         const auto i = static_cast<std::size_t>(b - 1);
         const Momentum now = momentum_of(run, b);
         // What xpbd's contacts are worth is in their multipliers, not in the gaps.
-        if (GetParam() != Method::kXpbd)
+        if (GetParam() != Method::kXpbd) {
             EXPECT_NEAR(pushes[i] / (now.mass * kGravity), 1.0, 0.1) << b;
+        }
         EXPECT_LT(length(now.place - before[i]), kSway) << b;
     }
 }

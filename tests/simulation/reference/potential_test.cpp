@@ -58,13 +58,16 @@ std::vector<FrozenContact> any_contacts(const std::vector<Vec3>& x) {
                         normalized(Vec3{1.0, 0.1 * i - 2.0, 0.3}),
                         0.0,
                         0.0,
+                        {},
                         {}};
         const Vec3 way = c.way(x);
         const double ratio = ranges[static_cast<std::size_t>(i) % ranges.size()];
         if (c.gap(way) * ratio < 0.0) c.normal = -c.normal;
         c.range = c.gap(way) * ratio;
         c.stiffness = 50.0 + i;
-        const double slip = length(way - c.gap(way) * c.normal);
+        const Vec3 along = way - c.gap(way) * c.normal;
+        if (i % 3 == 0) c.earlier_slip = -0.4 * along;
+        const double slip = length(along + c.earlier_slip);
         c.rubbing = {0.4, (i % 2 == 0 ? 0.4 : 1.7) * slip};
         contacts.push_back(c);
     }
