@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "simulation/contact/response.h"
 #include "simulation/scene/read_scene.h"
@@ -93,40 +95,50 @@ Vec3 push_on(ManualRun& run, int body) {
     return sum;
 }
 
-class Resting : public EverySolver {
-protected:
-    /// That solve the steps of what lies on each other well enough for it to lie still.
-    static int many_iterations() { return GetParam() == Method::kJpgd ? 80 : 20; }
+class Resting : public EverySolver {};
+
+/// A column of blocks that has stood for a second, and stands for half a second more.
+struct Column {
+    explicit Column(Method method, int iterations) {
+        std::string text = head(iterations, "friction = 0.3\n") + kFloor;
+        for (int i = 0; i < kBlocks; ++i) {
+            const Vec3 place{0.001 * i, 0.0535 + 0.1035 * i, 0.002 * i};
+            text += block(fmt::format("block{}", i), place, 200.0, 2e5, 7 * i);
+        }
+        Scene scene = parse_scene(text, "test.toml");
+        scene.solver.method = method;
+        ManualRun run(scene);
+        run.run(60);
+        for (int b = 0; b < kBlocks; ++b) moved[at(b)] = momentum_of(run, b + 1).place;
+        constexpr int kFrames = 30;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            run.run(1);
+            for (int b = 0; b < kBlocks; ++b) pushed[at(b)] += push_on(run, b + 1).y / kFrames;
+        }
+        for (int b = 0; b < kBlocks; ++b) {
+            const Momentum now = momentum_of(run, b + 1);
+            pushed[at(b)] /= now.mass * kGravity;
+            moved[at(b)] = now.place - moved[at(b)];
+        }
+    }
+    static constexpr int kBlocks = 3;
+    static std::size_t at(int b) { return static_cast<std::size_t>(b); }
+    std::array<double, kBlocks> pushed{};  ///< on average of its swings, in parts of its weight
+    std::array<Vec3, kBlocks> moved;       ///< [m]
 };
 
-/// Each block is pushed by its weight, on average of its swings: what lies below it carries all
-/// that is above. What sticks stays. (By fewer iterations it sways, and walks.)
+/// Each block is pushed by its weight: what lies below it carries all that is above.
 TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
-    std::string text = head(many_iterations(), "friction = 0.3\n") + kFloor;
-    for (int i = 0; i < 3; ++i) {
-        const Vec3 place{0.001 * i, 0.0535 + 0.1035 * i, 0.002 * i};
-        text += block(fmt::format("block{}", i), place, 200.0, 2e5, 7 * i);
-    }
-    ManualRun run(scene_of(text));
-    run.run(60);
-    std::vector<Vec3> before;
-    for (int b = 1; b <= 3; ++b) before.push_back(momentum_of(run, b).place);
-    constexpr int kFrames = 30;
-    std::vector<double> pushes(3, 0.0);
-    for (int frame = 0; frame < kFrames; ++frame) {
-        run.run(1);
-        for (int b = 1; b <= 3; ++b)
-            pushes[static_cast<std::size_t>(b - 1)] += push_on(run, b).y / kFrames;
-    }
-    for (int b = 1; b <= 3; ++b) {
-        const auto i = static_cast<std::size_t>(b - 1);
-        const Momentum now = momentum_of(run, b);
-        // What xpbd's contacts are worth is in their multipliers, not in the gaps.
-        if (GetParam() != Method::kXpbd) {
-            EXPECT_NEAR(pushes[i] / (now.mass * kGravity), 1.0, 0.1) << b;
-        }
-        EXPECT_LT(length(now.place - before[i]), kSway) << b;
-    }
+    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "presses more than it weighs: docs/contact.md";
+    for (const double pushed : Column(GetParam(), 8).pushed) EXPECT_NEAR(pushed, 1.0, 0.1);
+}
+
+/// By 8 iterations those of the descent methods sway, and walk aside (docs/contact.md).
+TEST_P(Resting, ColumnOfBlocksStaysWhereItIs) {
+    const std::map<Method, int> iterations{
+        {Method::kXpbd, 8}, {Method::kVbd, 20}, {Method::kSosd, 20}, {Method::kJpgd, 80}};
+    for (const Vec3 moved : Column(GetParam(), iterations.at(GetParam())).moved)
+        EXPECT_LT(length(moved), kSway);
 }
 
 /// Two blocks that meet at 1 m/s each, the second one of so many times the mass of the first.
@@ -179,7 +191,8 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
 /// 1 : 1000.
 TEST_P(Resting, LightBlockBearsAHeavyOne) {
     if (GetParam() == Method::kXpbd) GTEST_SKIP() << "lets it sink, and says so: energy_test.cpp";
-    ManualRun run(scene_of(head(many_iterations(), "friction = 0.5\n") + kFloor +
+    const int iterations = GetParam() == Method::kJpgd ? 40 : 8;
+    ManualRun run(scene_of(head(iterations, "friction = 0.5\n") + kFloor +
                            block("light", {0, 0.0535, 0}, 2.0, 1e6, 0) +
                            block("heavy", {0, 0.157, 0}, 2000.0, 1e6, 0)));
     run.run(30);
