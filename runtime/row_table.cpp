@@ -30,7 +30,8 @@ RowTable::RowTable(std::string name, const Segments& items, int room)
       counts_(name_ + ".counts", static_cast<std::size_t>(item_count_)),
       needs_(name_ + ".needs", static_cast<std::size_t>(item_count_)),
       entry_begin_(name_ + ".strips", static_cast<std::size_t>(items.strip_count) + 1),
-      entries_{&entry_begin_, 0, 1, items.strip_count} {
+      entries_{&entry_begin_, 0, 1, items.strip_count},
+      age_(name_ + ".age", 1) {
     WEFT_ASSERT(items.colour_count == 1);
     WEFT_ASSERT(items.item(0) == 0);
     place_rows();
@@ -104,7 +105,7 @@ void RowTable::grow() {
     std::ranges::transform(room, room_.begin(), [=](int own) { return std::max(own, least); });
     place_rows();
     for (const auto& column : columns_) column->resize(entry_count());
-    ++generation_;
+    ++age_[0];
 }
 
 std::vector<BufferStorage*> RowTable::resized_buffers() {

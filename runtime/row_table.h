@@ -57,11 +57,13 @@ public:
     /// 16: where rows get longer, others soon do.
     void grow();
     /// How often it has grown.
-    int generation() const { return generation_; }
+    int generation() const { return age_[0]; }
+    /// [1] the same, for kernels that keep entries over substeps: what they kept is gone then.
+    Buffer<int>& age() { return age_; }
     /// What grow() changes, for Executor::rebind(): the columns have moved,
     std::vector<BufferStorage*> resized_buffers();
     /// and these have new values, for Executor::host_wrote().
-    std::vector<BufferStorage*> written_buffers() { return {&rows_, &entry_begin_}; }
+    std::vector<BufferStorage*> written_buffers() { return {&rows_, &entry_begin_, &age_}; }
 
 private:
     std::size_t entry_count() const;
@@ -77,7 +79,7 @@ private:
     Buffer<int> entry_begin_;  ///< [strips + 1]
     Segments entries_;
     std::vector<std::unique_ptr<BufferStorage>> columns_;
-    int generation_ = 0;
+    Buffer<int> age_;
 };
 
 }  // namespace weft

@@ -115,6 +115,9 @@ void Simulation::restore(const SimulationState& state) {
     run_->executor().host_wrote(*model_->positions);
     run_->executor().host_wrote(*model_->velocities);
     for (BufferStorage* buffer : solver_->state()) run_->executor().host_wrote(*buffer);
+    if (ContactResponse* contact = solver_->contact()) {
+        run_->executor().host_wrote(contact->forget());
+    }
 }
 
 Checkpoint Simulation::checkpoint() const {

@@ -18,6 +18,7 @@ struct StackShape {
     int layers, size;
     double gap, reach;
     float thickness = 0.25f;
+    float stride = 0.0f;  ///< of the layers between each other, per substep
 };
 
 struct Stack {
@@ -105,16 +106,23 @@ public:
     explicit Detection(const StackShape& shape)
         : stack_(shape),
           anchors_("anchors", stack_.anchors.size()),
+          strides_("strides", stack_.anchors.size()),
           strip_begin_("strips", stack_.strips.begin.size()),
           strips_{&strip_begin_, 0, 1, stack_.strips.count()} {
         std::ranges::copy(stack_.anchors, anchors_.data());
+        for (std::size_t v = 0; v < strides_.count(); ++v) {
+            const bool is_odd =
+                static_cast<int>(std::lround(static_cast<double>(anchors_[v].y) / shape.gap)) % 2 !=
+                0;
+            strides_[v].x = is_odd ? shape.stride : 0.0f;
+        }
         std::ranges::copy(stack_.strips.begin, strip_begin_.data());
         pairs_ = std::make_unique<ContactPairs>(
-            make_surface(stack_.mesh, stack_.strips), stack_.mesh.rest, anchors_, anchors_, strips_,
-            PairSettings{shape.thickness, 0.1f * shape.thickness, true, 4}, 0);
+            make_surface(stack_.mesh, stack_.strips), stack_.mesh.rest, anchors_, anchors_,
+            strides_, strips_, PairSettings{shape.thickness, 0.1f * shape.thickness, true, 4}, 0);
         bool grew = true;
         while (grew) {
-            for (std::size_t kind = 0; kind < 3; ++kind) run(kind);
+            run_all();
             grew = false;
             for (RowTable* table : pairs_->tables()) {
                 if (!table->overflowed()) continue;
@@ -122,8 +130,12 @@ public:
                 grew = true;
             }
         }
+        run_all();
     }
 
+    void run_all() {
+        for (std::size_t kind = 0; kind < 3; ++kind) run(kind);
+    }
     /// One of boxes, near, pairs.
     void run(std::size_t kind) {
         for (const Launch& launch : pairs_->bodies()[kind]->launches) {
@@ -141,21 +153,33 @@ public:
 
 private:
     Stack stack_;
-    Buffer<float4> anchors_;
+    Buffer<float4> anchors_, strides_;
     Buffer<int> strip_begin_;
     Segments strips_;
     std::unique_ptr<ContactPairs> pairs_;
 };
 
-void detect(benchmark::State& state, std::size_t kind, const StackShape& shape) {
-    Detection run(shape);
-    for (auto _ : state) run.run(kind);
+void count(benchmark::State& state, Detection& run) {
     state.counters["per_vertex"] =
         benchmark::Counter(run.vertex_count(), benchmark::Counter::kIsIterationInvariantRate |
                                                    benchmark::Counter::kInvert);
     state.counters["vt"] = run.entries(run.pairs().vt());
     state.counters["ee"] = run.entries(run.pairs().ee());
     state.counters["near"] = run.entries(run.pairs().near());
+}
+
+/// Where nothing has moved.
+void detect(benchmark::State& state, std::size_t kind, const StackShape& shape) {
+    Detection run(shape);
+    for (auto _ : state) run.run(kind);
+    count(state, run);
+}
+
+/// Where candidates have to be collected anew as far as layers move.
+void all(benchmark::State& state, const StackShape& shape) {
+    Detection run(shape);
+    for (auto _ : state) run.run_all();
+    count(state, run);
 }
 
 void boxes(benchmark::State& state, const StackShape& shape) { detect(state, 0, shape); }
@@ -166,6 +190,10 @@ void pairs(benchmark::State& state, const StackShape& shape) { detect(state, 2, 
 constexpr StackShape kSheet{1, 200, 1.0, 0.1};
 constexpr StackShape kFastSheet{1, 100, 1.0, 0.5};
 constexpr StackShape kStack{50, 40, 0.2, 0.1};
+// Layers that move by so many thicknesses per substep.
+constexpr StackShape kSlowStack{50, 40, 0.2, 0.1, 0.25f, 0.02f * 0.25f};
+constexpr StackShape kSlidingStack{50, 40, 0.2, 0.1, 0.25f, 0.1f * 0.25f};
+constexpr StackShape kFastStack{50, 40, 0.2, 0.1, 0.25f, 0.5f * 0.25f};
 
 BENCHMARK_CAPTURE(boxes, sheet, kSheet)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near, sheet, kSheet)->Unit(benchmark::kMillisecond);
@@ -174,6 +202,11 @@ BENCHMARK_CAPTURE(pairs, fast_sheet, kFastSheet)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(boxes, stack_of_50, kStack)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(near, stack_of_50, kStack)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(pairs, stack_of_50, kStack)->Unit(benchmark::kMillisecond);
+
+BENCHMARK_CAPTURE(all, stack_of_50, kStack)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all, slow_stack_of_50, kSlowStack)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all, sliding_stack_of_50, kSlidingStack)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(all, fast_stack_of_50, kFastStack)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace weft

@@ -15,7 +15,9 @@ WEFT_KERNELS_BEGIN
 /// previous   [vertices] xyz: x_t
 /// targets    [vertices] xyz: x~ of free vertices
 /// goals      [vertices] written: xyz: where inertia, or the scene, leads; w = 1/mass
-/// anchors    [vertices] written: xyz: x_t + u, w: the radius of the ball in which it stays [m]
+/// anchors    [vertices] from those of the substep before to those of this one: xyz: x_t + u, w: the
+///            radius of the ball in which it stays [m]
+/// strides    [vertices] written: what has changed of them
 /// bodies     [vertices] whose each is
 /// carried    [substeps * body_count] xyz: u, what the body's group does together in the substep,
 ///            w: the farthest that the scene leads one of the group: so far others may be pushed [m]
@@ -23,7 +25,7 @@ WEFT_KERNELS_BEGIN
 /// most       that it may go [m]
 WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* previous,
             WEFT_GLOBAL const float4* targets, WEFT_GLOBAL float4* goals,
-            WEFT_GLOBAL float4* anchors, WEFT_GLOBAL const int* bodies,
+            WEFT_GLOBAL float4* anchors, WEFT_GLOBAL float4* strides, WEFT_GLOBAL const int* bodies,
             WEFT_GLOBAL const float4* carried, int body_count, float margin, float most,
             int substep) {
     const real4 x = load4(positions, i);
@@ -36,7 +38,10 @@ WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
     const real way = length3(subtract(goal, anchor));
     const real pushed = moves ? together.w : splat(0.0f);
     store4(goals, i, with_w(goal, x.w));
-    store4(anchors, i, with_w(anchor, smaller(way, splat(most)) + splat(margin) + pushed));
+    const real reach = smaller(way, splat(most)) + splat(margin) + pushed;
+    const real4 before = load4(anchors, i);
+    store4(strides, i, with_w(subtract(anchor, xyz(before)), reach - before.w));
+    store4(anchors, i, with_w(anchor, reach));
 }
 
 /// In how many substeps of the frame contacts took each vertex back, and in how many it could not

@@ -37,7 +37,8 @@ WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL cons
     return are_smooth(between, a) * are_smooth(between, b);
 }
 
-/// For each patch those whose boxes overlap with its own, itself too, ascending. Left out are
+/// For each patch those whose boxes nearly overlap with its own, itself too, ascending. Left out
+/// are
 ///   what it hangs together with (and itself), by a vertex or by one patch between, while all of
 ///       them are flat and quiet and face one way: normals are within 60 degrees of one direction,
 ///       so there is no fold yet, and none comes;
@@ -50,6 +51,7 @@ WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL cons
 ///               with, ascending, and as its end a number that is larger than any; vias: by which
 /// bodies        [items]
 /// held          [items] 1: it cannot move
+/// margin        by which boxes may be apart, so that it is known for a while what is near [m]
 /// rows, counts, needs, others   a table, as in kernels/neighbours.h
 WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
@@ -61,10 +63,12 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
             WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, int item_count, int root_count, int self, int instance) {
+            WEFT_GLOBAL int* others, int item_count, int root_count, float margin, int self,
+            int instance) {
     real_box box;
     box.low = xyz(load4(low, i));
     box.high = xyz(load4(high, i));
+    box = widened(box, splat(margin));
     const float_box all = around_all(box);
     const real_leaning own = {load4(tilts, i), load4(drifts, i)};
     const whole body = load_whole(bodies, i);

@@ -41,6 +41,25 @@ WEFT_INLINE mask overlaps(real_box a, float4 low, float4 high) {
     return both(x, both(y, z));
 }
 
+/// One box each.
+WEFT_INLINE mask overlap(real_box a, real_box b) {
+    const mask x = both(a.low.x <= b.high.x, a.high.x >= b.low.x);
+    const mask y = both(a.low.y <= b.high.y, a.high.y >= b.low.y);
+    const mask z = both(a.low.z <= b.high.z, a.high.z >= b.low.z);
+    return both(x, both(y, z));
+}
+
+/// Lower by so much, and by more than what coordinates are rounded by.
+WEFT_INLINE real lowered(real x, real by) { return x - (by + splat(1e-6f) * larger(x, -x)); }
+
+/// Larger on all sides.
+WEFT_INLINE real_box widened(real_box box, real by) {
+    box.low = make3(lowered(box.low.x, by), lowered(box.low.y, by), lowered(box.low.z, by));
+    box.high =
+        make3(-lowered(-box.high.x, by), -lowered(-box.high.y, by), -lowered(-box.high.z, by));
+    return box;
+}
+
 /// Where the rows of the items at hand lie, and how long they are by now.
 typedef struct {
     whole start, room, count;

@@ -44,16 +44,15 @@ void reads_all(Step::Adding adding, Buffer& buffer, const Items& items) {
     adding.reads(buffer, 0, items.count());
 }
 
-void fills(Step::Adding adding, ContactPairs::Table& rows, const Items& items, const Part& part) {
-    updates(adding, rows.table.counts(), items, part);
-    updates(adding, rows.table.needs(), items, part);
-    adding.updates(rows.others, rows.table.entries());
+void fills(Step::Adding adding, PairTable& rows, const Items& items, const Part& part) {
+    const auto [first, last] = range(items, part.begin, part.end);
+    rows.add_fills(adding, first, last);
 }
 
 }  // namespace
 
 ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
-                           Buffer<float4>& goals, const Segments& strips,
+                           Buffer<float4>& goals, Buffer<float4>& strides, const Segments& strips,
                            const PairSettings& settings, int first_kind)
     : surface_(std::move(surface)),
       s_(surface_, rest),
@@ -74,10 +73,17 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
       near_("contact.near", s_.patches.segments, 8 * settings.room),
       vt_("contact.vt", s_.vertices.items.segments, 2 * settings.room),
       tv_("contact.tv", s_.triangles.items.segments, settings.room),
-      ee_("contact.ee", s_.edges.items.segments, 2 * settings.room) {
+      ee_("contact.ee", s_.edges.items.segments, 2 * settings.room),
+      candidates_(s_, strides, settings.thickness, settings.room) {
     make_boxes_body(first_kind);
     make_near_body(first_kind + 1);
     make_pairs_body(first_kind + 2);
+}
+
+std::vector<RowTable*> ContactPairs::tables() {
+    auto list = candidates_.tables();
+    list.insert(list.begin(), {&near_.table, &vt_.table, &tv_.table, &ee_.table});
+    return list;
 }
 
 void ContactPairs::make_boxes_body(int kind) {
@@ -96,7 +102,8 @@ void ContactPairs::make_boxes_body(int kind) {
          launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, foresees_, s_.face_begin,
                    s_.face_corners, patch_high_, s_.quiet, tilts_, drifts_,
                    surface_.faces.begin.back()),
-         unite(s_.groups, patch_low_, patch_high_), unite(s_.blocks, s_.groups.low, s_.groups.high),
+         candidates_.enclose(), unite(s_.groups, patch_low_, patch_high_),
+         unite(s_.blocks, s_.groups.low, s_.groups.high),
          unite(s_.roots, s_.blocks.low, s_.blocks.high)}};
 }
 
@@ -111,8 +118,9 @@ void ContactPairs::make_near_body(int kind) {
                    s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
                    tilts_, drifts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held,
                    table.rows(), table.counts(), table.needs(), near_.others,
-                   surface_.patch_count(), surface_.strip_count(), settings_.self ? 1 : 0,
-                   kInstance),
+                   surface_.patch_count(), surface_.strip_count(), candidates_.margin(),
+                   settings_.self ? 1 : 0, kInstance),
+         candidates_.check(near_, patch_low_, patch_high_),
          launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
                    s_.triangles.patches, table.counts(), triangle_low_, triangle_high_, margin, 3,
                    surface_.triangle_count()),
@@ -121,26 +129,50 @@ void ContactPairs::make_near_body(int kind) {
 }
 
 void ContactPairs::make_pairs_body(int kind) {
-    RowTable& near = near_.table;
-    pairs_ = {"pairs",
-              kind,
-              {launch_on(kernels::find_triangles, s_.vertices.items, points_, s_.vertices.patches,
-                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
-                         s_.triangles.begin, s_.corners, s_.knots, triangle_low_, triangle_high_,
-                         s_.beyond, s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(),
-                         vt_.table.counts(), vt_.table.needs(), vt_.others, surface_.vertex_count(),
-                         surface_.triangle_count(), halo_, settings_.least, kInstance),
-               launch_on(kernels::find_vertices, s_.triangles.items, points_, s_.triangles.patches,
-                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
-                         s_.vertices.begin, s_.corners, s_.knots, triangle_low_, triangle_high_,
-                         s_.beyond, s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(),
-                         tv_.table.counts(), tv_.table.needs(), tv_.others,
-                         surface_.triangle_count(), halo_, settings_.least, kInstance),
-               launch_on(kernels::find_edges, s_.edges.items, points_, s_.edges.patches,
-                         near.rows(), near.counts(), near_.others, patch_low_, patch_high_,
-                         s_.edges.begin, s_.ends, s_.knots, edge_low_, edge_high_, ee_.table.rows(),
-                         ee_.table.counts(), ee_.table.needs(), ee_.others, surface_.edge_count(),
-                         halo_, settings_.least, kInstance)}};
+    pairs_ = {"pairs", kind, {}};
+    add_collecting(pairs_.launches);
+    add_choosing(pairs_.launches);
+}
+
+/// Of patches whose candidates do not last any longer.
+void ContactPairs::add_collecting(std::vector<Launch>& launches) {
+    const auto add = [&](auto kernel, SurfaceBuffers::Patched& items, PairTable& candidates,
+                         SurfaceBuffers::Patched& others, SurfaceBuffers::Ints& corners,
+                         Buffer<float4>& low, Buffer<float4>& high, auto... numbers) {
+        launches.push_back(launch_on(
+            kernel, items.items, points_, items.patches, near_.table.rows(), near_.table.counts(),
+            near_.others, candidates_.stale(), candidates_.slacks(), patch_low_, patch_high_,
+            others.begin, corners, s_.knots, low, high, candidates.table.rows(),
+            candidates.table.counts(), candidates.table.needs(), candidates.others, numbers...,
+            std::max(halo_, settings_.least), candidates_.spare(), kInstance));
+    };
+    add(kernels::collect_triangles, s_.vertices, candidates_.triangles(), s_.triangles, s_.corners,
+        triangle_low_, triangle_high_, surface_.vertex_count(), surface_.triangle_count(), halo_);
+    add(kernels::collect_vertices, s_.triangles, candidates_.vertices(), s_.vertices, s_.corners,
+        triangle_low_, triangle_high_, surface_.triangle_count(), halo_);
+    add(kernels::collect_edges, s_.edges, candidates_.edges(), s_.edges, s_.ends, edge_low_,
+        edge_high_, surface_.edge_count());
+}
+
+/// Of what is a pair in this substep.
+void ContactPairs::add_choosing(std::vector<Launch>& launches) {
+    const auto add = [&](auto kernel, SurfaceBuffers::Patched& items, PairTable& candidates,
+                         auto&&... values) {
+        launches.push_back(launch_on(kernel, items.items, points_, items.patches,
+                                     near_.table.counts(), candidates.table.rows(),
+                                     candidates.table.counts(), candidates.others, values...));
+    };
+    add(kernels::find_triangles, s_.vertices, candidates_.triangles(), s_.corners, s_.beyond,
+        s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
+        vt_.table.needs(), vt_.others, surface_.vertex_count(), surface_.triangle_count(), halo_,
+        settings_.least, kInstance);
+    add(kernels::find_vertices, s_.triangles, candidates_.vertices(), s_.corners, s_.beyond,
+        s_.owned, s_.ring.begin, s_.ring.items, tv_.table.rows(), tv_.table.counts(),
+        tv_.table.needs(), tv_.others, surface_.triangle_count(), halo_, settings_.least,
+        kInstance);
+    add(kernels::find_edges, s_.edges, candidates_.edges(), s_.ends, ee_.table.rows(),
+        ee_.table.counts(), ee_.table.needs(), ee_.others, surface_.edge_count(), halo_,
+        settings_.least, kInstance);
 }
 
 /// The triangles of a strip reach into the next one.
@@ -150,6 +182,9 @@ void ContactPairs::add_boxes(Step& step, const Part& part, RegionId region) {
     adding.reads(anchors_, strips_.item(part.begin), strips_.item(next));
     adding.reads(goals_, strips_.item(part.begin), strips_.item(next));
     updates(adding, points_, s_.vertices.items, part);
+    const auto [first_patch, last_patch] = range(s_.patches, part.begin, part.end);
+    candidates_.add_enclose_accesses(adding, strips_.item(part.begin), strips_.item(next),
+                                     first_patch, last_patch);
     updates(adding, tilts_, s_.patches, part);
     updates(adding, drifts_, s_.patches, part);
     updates(adding, patch_low_, s_.patches, part);
@@ -174,6 +209,8 @@ void ContactPairs::add_near(Step& step, const Part& part, RegionId region) {
     }
     adding.reads(points_, first, last);
     fills(adding, near_, s_.patches, part);
+    const auto [first_patch, last_patch] = range(s_.patches, part.begin, part.end);
+    candidates_.add_check_accesses(adding, first_patch, last_patch);
     updates(adding, triangle_low_, s_.triangles.items, part);
     updates(adding, triangle_high_, s_.triangles.items, part);
     updates(adding, edge_low_, s_.edges.items, part);
@@ -190,7 +227,13 @@ void ContactPairs::add_pairs(Step& step, const Part& part, RegionId region) {
     reads_all(adding, triangle_high_, s_.triangles.items);
     reads_all(adding, edge_low_, s_.edges.items);
     reads_all(adding, edge_high_, s_.edges.items);
-    adding.reads(near_.table.counts(), first, last).reads(near_.others, near_.table.entries());
+    adding.reads(near_.table.counts(), first, last)
+        .reads(near_.others, near_.table.entries())
+        .reads(candidates_.stale(), first, last)
+        .reads(candidates_.slacks(), first, last);
+    fills(adding, candidates_.triangles(), s_.vertices.items, part);
+    fills(adding, candidates_.vertices(), s_.triangles.items, part);
+    fills(adding, candidates_.edges(), s_.edges.items, part);
     fills(adding, vt_, s_.vertices.items, part);
     fills(adding, tv_, s_.triangles.items, part);
     fills(adding, ee_, s_.edges.items, part);

@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "runtime/planning/partition.h"
-#include "runtime/row_table.h"
-#include "runtime/step.h"
-#include "simulation/contact/surface_buffers.h"
+#include "simulation/contact/candidates.h"
 
 namespace weft {
 
@@ -24,18 +22,13 @@ struct PairSettings {
 ///
 /// Three tasks per part, one after the other: `boxes`, of the part's strips; `near`, which needs
 /// the boxes of all strips, finds patches near to each other; `pairs`, which needs what `near` has
-/// found in all strips, fills the tables.
+/// found in all strips, fills the tables, from candidates that last for some substeps.
 class ContactPairs {
 public:
     /// A table of pairs. An entry is 2 * the number of the other one, + 1 if they push each other;
     /// without, they may meet if their vertices go as far as they may. Rows ascend. (Of `near`: the
     /// number.)
-    struct Table {
-        Table(const std::string& name, const Segments& items, int room)
-            : table(name, items, room), others(table.add_column<int>("others")) {}
-        RowTable table;
-        Buffer<int>& others;
-    };
+    using Table = PairTable;
     static std::vector<std::string> kinds() { return {"boxes", "near", "pairs"}; }
 
     /// rest        [model vertices] [m] as the surface was made with
@@ -44,14 +37,15 @@ public:
     ///             the thickness is found [m]; somebody else's task writes them, before `boxes`
     /// goals       [model vertices] xyz: where inertia, or the scene, leads in the substep [m];
     ///             likewise. They count where foresees() says so
+    /// strides     [model vertices] what has changed of the anchors, see PairCandidates; likewise
     /// strips      the model's vertices, as the surface was made with
     /// first_kind  the kinds of the tasks are this and the two behind it
     ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffer<float4>& anchors,
-                 Buffer<float4>& goals, const Segments& strips, const PairSettings& settings,
-                 int first_kind);
+                 Buffer<float4>& goals, Buffer<float4>& strides, const Segments& strips,
+                 const PairSettings& settings, int first_kind);
 
     std::vector<const TaskBody*> bodies() const { return {&boxes_, &near_task_, &pairs_}; }
-    std::vector<RowTable*> tables() { return {&near_.table, &vt_.table, &tv_.table, &ee_.table}; }
+    std::vector<RowTable*> tables();
     void add_boxes(Step& step, const Part& part, RegionId region);
     void add_near(Step& step, const Part& part, RegionId region);
     void add_pairs(Step& step, const Part& part, RegionId region);
@@ -62,6 +56,7 @@ public:
     Table& vt() { return vt_; }      ///< of vertices: triangles
     Table& tv() { return tv_; }      ///< of triangles: vertices
     Table& ee() { return ee_; }      ///< of edges: edges
+    PairCandidates& candidates() { return candidates_; }
     /// The surface, and its items by strips.
     SurfaceBuffers& buffers() { return s_; }
     /// [vertices of the surface] their anchors.
@@ -77,6 +72,8 @@ private:
     void make_boxes_body(int kind);
     void make_near_body(int kind);
     void make_pairs_body(int kind);
+    void add_collecting(std::vector<Launch>& launches);
+    void add_choosing(std::vector<Launch>& launches);
 
     Surface surface_;
     SurfaceBuffers s_;
@@ -89,6 +86,7 @@ private:
     Buffer<float4> patch_low_, patch_high_;
     Buffer<float4> triangle_low_, triangle_high_, edge_low_, edge_high_;
     Table near_, vt_, tv_, ee_;
+    PairCandidates candidates_;
     TaskBody boxes_, near_task_, pairs_;
 };
 

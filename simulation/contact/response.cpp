@@ -116,10 +116,11 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       friction_(static_cast<float>(model.scene.contact->friction.value_or(0.0))),
       creep_(static_cast<float>(creep_of(model))),
       anchors_("contact.anchors", model.positions->count()),
+      strides_("contact.strides", model.positions->count()),
       goals_("contact.goals", model.positions->count()),
       stiffness_("contact.stiffness", model.positions->count()),
       pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips),
-             rest_of(model), anchors_, goals_, model.vertices(),
+             rest_of(model), anchors_, goals_, strides_, model.vertices(),
              {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
       motion_(model, pairs_.surface(), model.scene.contact->thickness,
               2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),
@@ -210,13 +211,15 @@ bool ContactResponse::revise(Executor& executor) {
 void ContactResponse::add_begin(std::vector<Launch>& launches, Buffer<float4>& targets) {
     const auto most = static_cast<float>(model_.scene.guard.max_speed * model_.h);
     launches.push_back(launch(kernels::begin_contacts, model_.vertices(), *model_.positions,
-                              *model_.previous, targets, goals_, anchors_, motion_.body_of(),
-                              motion_.carried(), motion_.body_count(), kMargin * range_, most,
-                              kInstance));
+                              *model_.previous, targets, goals_, anchors_, strides_,
+                              motion_.body_of(), motion_.carried(), motion_.body_count(),
+                              kMargin * range_, most, kInstance));
 }
 
 void ContactResponse::add_begin_accesses(Step::Adding& task, int first, int last) {
-    task.updates(goals_, first, last).updates(anchors_, first, last);
+    for (Buffer<float4>* buffer : {&goals_, &anchors_, &strides_}) {
+        task.updates(*buffer, first, last);
+    }
 }
 
 void ContactResponse::add_detection(Step& step, const std::vector<Region>& regions) {

@@ -38,6 +38,10 @@ public:
     /// again, with less foreseen.
     bool revise(Executor& executor);
 
+    /// From now on no substep is the next one of those before. What this gives is to be shown to
+    /// the devices.
+    BufferStorage& forget() { return pairs_.candidates().forget(); }
+
     /// Behind what begins a substep: where contacts are to be looked for.
     void add_begin(std::vector<Launch>& launches, Buffer<float4>& targets);
     void add_begin_accesses(Step::Adding& task, int first, int last);
@@ -124,7 +128,7 @@ private:
     Model& model_;
     float range_, floor_;
     float friction_, creep_;  ///< 0: none; [m] see kernels/contact/friction.h
-    Buffer<float4> anchors_, goals_;
+    Buffer<float4> anchors_, strides_, goals_;
     Buffer<float> stiffness_;
     ContactPairs pairs_;
     CommonMotion motion_;

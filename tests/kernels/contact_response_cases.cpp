@@ -79,8 +79,9 @@ void begin_case(KernelCase& c) {
     auto& anchors = c.add<float4>("anchors", c.items);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies);
     auto& carried = add_points(c, "carried", kBodies * kSubsteps);
+    auto& strides = c.add<float4>("strides", c.items);
     c.launch = launch(kernels::begin_contacts, c.segments, positions, previous, targets, goals,
-                      anchors, bodies, carried, kBodies, 0.1f, 0.3f, kInstance);
+                      anchors, strides, bodies, carried, kBodies, 0.1f, 0.3f, kInstance);
 }
 
 /// Boxes of which most are within their fences.

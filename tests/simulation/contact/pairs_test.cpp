@@ -46,6 +46,7 @@ class Detection {
 public:
     Detection(const ContactMesh& mesh, Devices devices, int room)
         : anchors_("anchors", mesh.anchors.size()),
+          strides_("strides", mesh.anchors.size()),
           strip_begin_("strips", mesh.strips.begin.size()),
           strips_{&strip_begin_, 0, 1, mesh.strips.count()},
           devices_(std::move(devices)) {
@@ -53,17 +54,17 @@ public:
         std::ranges::copy(mesh.strips.begin, strip_begin_.data());
         const PairSettings settings{mesh.thickness, 0.1f * mesh.thickness, mesh.self, room};
         pairs = std::make_unique<ContactPairs>(make_surface(mesh.mesh, mesh.strips), mesh.mesh.rest,
-                                               anchors_, anchors_, strips_, settings, 0);
+                                               anchors_, anchors_, strides_, strips_, settings, 0);
         std::vector<Device*> pointers;
         for (const auto& device : devices_) pointers.push_back(device.get());
         executor_ = std::make_unique<Executor>(pointers, pairs->bodies());
     }
 
-    /// Two substeps, again until there is room.
-    Found find(const Division& division) {
+    /// Two substeps, or so many, again until there is room.
+    Found find(const Division& division, int substeps = 2) {
         for (int round = 0; round < 9; ++round) {
             const Step step = make_step(division.partition());
-            executor_->run(step, plan_in_order(step, division), 2);
+            executor_->run(step, plan_in_order(step, division), substeps);
             if (!make_room())
                 return {rows_of(pairs->vt()), rows_of(pairs->tv()), rows_of(pairs->ee())};
             ++redone;
@@ -71,11 +72,36 @@ public:
         ADD_FAILURE() << "there is never enough room";
         return {};
     }
-    Found find() {
+    Found find(int substeps = 2) {
         return find(
-            Division::proportional(strips_.strip_count, std::vector<double>(devices_.size(), 1.0)));
+            Division::proportional(strips_.strip_count, std::vector<double>(devices_.size(), 1.0)),
+            substeps);
     }
+    void forget() { executor_->host_wrote(pairs->candidates().forget()); }
     Rows near() { return rows_of(pairs->near()); }
+    /// Where everything is next.
+    void move_to(std::span<const float4> anchors) {
+        for (std::size_t v = 0; v < anchors.size(); ++v) {
+            const float4& to = anchors[v];
+            float4& from = anchors_[v];
+            strides_[v] = {to.x - from.x, to.y - from.y, to.z - from.z, to.w - from.w};
+            from = to;
+        }
+        executor_->host_wrote(anchors_);
+        executor_->host_wrote(strides_);
+    }
+    /// Patches that have others near to them, and of these those that collected anew.
+    std::pair<int, int> collected() {
+        executor_->fetch(pairs->near().table.counts());
+        executor_->fetch(pairs->candidates().stale());
+        std::pair<int, int> sums;
+        for (std::size_t p = 0; p < pairs->near().table.counts().count(); ++p) {
+            if (pairs->near().table.counts()[p] == 0) continue;
+            ++sums.first;
+            sums.second += pairs->candidates().stale()[p];
+        }
+        return sums;
+    }
     int strip_count() const { return strips_.strip_count; }
 
     std::unique_ptr<ContactPairs> pairs;
@@ -124,7 +150,7 @@ private:
         return rows;
     }
 
-    Buffer<float4> anchors_;
+    Buffer<float4> anchors_, strides_;
     Buffer<int> strip_begin_;
     Segments strips_;
     Devices devices_;
@@ -234,6 +260,93 @@ TEST_P(ContactPairsOf, AreTheSameWithEveryRoom) {
         if (room == 0 && mesh_.name != "flat") {
             EXPECT_GT(run.redone, 0);
         }
+    }
+}
+
+/// Bodies that drift, turn and tremble by about `speed` thicknesses per step, and may get farther
+/// or less far.
+class Motion {
+public:
+    Motion(const ContactMesh& mesh, float speed)
+        : mesh_(mesh), by_(speed * mesh.thickness), anchors_(mesh.anchors) {}
+
+    std::span<const float4> next() {
+        for (std::size_t v = 0; v < anchors_.size(); ++v) {
+            const float4 shake = random_.point(0.3f * by_);
+            const float4& start = mesh_.anchors[v];
+            const bool is_upper = start.y > 0.1f;
+            float4& x = anchors_[v];
+            x.x += shake.x + (is_upper ? by_ : -by_) * (1.0f + 0.1f * start.z);
+            x.y += shake.y - (is_upper ? 0.2f * by_ : 0.0f);
+            x.z += shake.z + 0.1f * by_ * start.x;
+            x.w = std::max(start.w, x.w + random_.real(-0.2f, 0.25f) * by_);
+        }
+        return anchors_;
+    }
+    ContactMesh now() const {
+        ContactMesh mesh = mesh_;
+        mesh.anchors = anchors_;
+        return mesh;
+    }
+
+private:
+    const ContactMesh& mesh_;
+    float by_;
+    Random random_{7};
+    std::vector<float4> anchors_;
+};
+
+constexpr float kSpeeds[] = {0.0f, 1e-3f, 0.02f, 0.1f, 1.0f};
+
+/// What has been kept since earlier substeps saves work, and changes nothing: also where other
+/// devices go on with it.
+TEST_P(ContactPairsOf, AreTheSameFromCandidatesThatWereKept) {
+    for (const float speed : kSpeeds) {
+        Motion motion(mesh_, speed);
+        Detection run(mesh_, cpus(2), 8);
+        std::pair<int, int> late;
+        for (int step = 0; step < 24; ++step) {
+            run.move_to(motion.next());
+            const int cut = (5 * step) % (run.strip_count() + 1);
+            const Found found = run.find({{cut, run.strip_count() - cut}});
+            ASSERT_EQ(found, Detection(motion.now(), cpus(1), kPlenty).find())
+                << "step " << step << ", " << speed << " thicknesses per step";
+            if (step < 4) continue;
+            const auto [near, anew] = run.collected();
+            late = {late.first + near, late.second + anew};
+        }
+        RecordProperty("collected_at_" + std::to_string(speed), late.second);
+        if (speed < 0.01f) {
+            EXPECT_LE(5 * late.second, late.first) << speed;
+        }
+        if (speed == 1.0f) {
+            EXPECT_GE(2 * late.second, late.first);
+        }
+    }
+}
+
+TEST_P(ContactPairsOf, AreCollectedAnewWhereAsked) {
+    Detection run(mesh_, cpus(1), kPlenty);
+    const Found expected = run.find();
+    const auto [near, nothing] = run.collected();
+    EXPECT_EQ(nothing, 0);
+    run.forget();
+    EXPECT_EQ(run.find(1), expected);
+    EXPECT_EQ(run.collected(), std::pair(near, near));
+}
+
+TEST_P(ContactPairsOf, AreKeptByDiscreteDevicesAsWell) {
+    if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
+    Motion motion(mesh_, 0.05f);
+    Devices devices = cpus(1);
+    add_opencl(devices, MemoryModel::kDiscrete, 8, false);
+    Detection run(mesh_, std::move(devices), 8);
+    for (int step = 0; step < 12; ++step) {
+        run.move_to(motion.next());
+        const int cut = (3 * step) % (run.strip_count() + 1);
+        ASSERT_EQ(run.find({{cut, run.strip_count() - cut}}),
+                  Detection(motion.now(), cpus(1), kPlenty).find())
+            << "step " << step;
     }
 }
 

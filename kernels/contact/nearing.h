@@ -1,0 +1,191 @@
+#ifndef WEFT_KERNELS_CONTACT_NEARING_H
+#define WEFT_KERNELS_CONTACT_NEARING_H
+
+// How long candidates for pairs last (candidates.h; neighbour lists with a skin: Verlet 1967). A
+// patch has collected all that would be a pair of one of its items if it were nearer to it by the
+// patch's slack. Since then, two points of two patches have come nearer to each other by no more
+// than what their strides differed by in each substep, and their reaches have grown by no more than
+// the most that one has grown in each. Once that is more than the slack, the patch collects anew,
+// as it does where another patch is near, or one is not any more that it has taken for one.
+//
+// What is a pair is looked at in every substep (pairs.h), so how long candidates last decides what
+// that costs, and nothing else.
+
+#include "kernels/contact/overlap.h"
+
+WEFT_KERNELS_BEGIN
+
+/// Of patches of which nobody follows how far they move.
+#define WEFT_UNKNOWN_STRIDE 1e15f
+
+/// Bounds of the strides of a patch's vertices: how far they have come since the substep before
+/// [m]. w of high: the most that one's reach has grown [m]
+typedef struct {
+    real4 low, high;
+} real_strides;
+
+WEFT_INLINE real_strides gather_strides(WEFT_GLOBAL const float4* low,
+                                        WEFT_GLOBAL const float4* high, whole patch) {
+    const integer p = address(patch);
+    real_strides strides = {gather4(low, p), gather4(high, p)};
+    return strides;
+}
+
+/// By how much points of two patches, with their reaches, have come nearer to each other at most.
+WEFT_INLINE real nearing(real_strides a, real_strides b) {
+    const real3 apart = make3(larger(a.high.x - b.low.x, b.high.x - a.low.x),
+                              larger(a.high.y - b.low.y, b.high.y - a.low.y),
+                              larger(a.high.z - b.low.z, b.high.z - a.low.z));
+    return length3(apart) + (a.high.w + b.high.w);
+}
+
+/// Bounds of strides, of patches that others are near to.
+/// strides     [vertices] as begin_contacts leaves them
+/// hull_begin, hulls   as in enclose_patches
+/// counts      [items] how many patches each has near to it, as far as it knows
+/// low, high   [items] written
+WEFT_KERNEL(enclose_strides, WEFT_GLOBAL const float4* strides, WEFT_GLOBAL const int* hull_begin,
+            WEFT_GLOBAL const int* hulls, WEFT_GLOBAL const int* counts, WEFT_GLOBAL float4* low,
+            WEFT_GLOBAL float4* high) {
+    const real far = splat(WEFT_UNKNOWN_STRIDE);
+    const whole none = splat_whole(0);
+    const mask counts_here = load_whole(counts, i) > none;
+    real_box box = empty_box();
+    real growth = -far;
+    if (any_item(counts_here)) {
+        const whole begin = load_whole(hull_begin, i);
+        const whole last = load_whole(hull_begin, column(i, 1, 1)) - splat_whole(1);
+        const int longest = largest_whole(counts_here ? last - begin : none) + 1;
+        for (int k = 0; k < longest; ++k) {
+            const integer entry = address(smaller_whole(begin + splat_whole(k), last));
+            const real4 stride = gather4(strides, address(gather_whole(hulls, entry)));
+            real_box of_vertex;
+            of_vertex.low = of_vertex.high = xyz(stride);
+            box = united(box, of_vertex);
+            growth = larger(stride.w, growth);
+        }
+    }
+    const real4 bottom = {counts_here ? box.low.x : -far, counts_here ? box.low.y : -far,
+                          counts_here ? box.low.z : -far, splat(0.0f)};
+    const real4 top = {counts_here ? box.high.x : far, counts_here ? box.high.y : far,
+                       counts_here ? box.high.z : far, counts_here ? growth : splat(0.0f)};
+    store4(low, i, bottom);
+    store4(high, i, top);
+}
+
+/// The entry of a row of patches, or a number larger than any behind its end.
+WEFT_INLINE whole patch_at(WEFT_GLOBAL const int* others, whole start, whole count, whole n) {
+    const mask on = n < count;
+    const whole place = on ? start + n * splat_whole(WEFT_ROW_STRIDE) : start;
+    return on ? gather_whole(others, address(place)) : splat_whole(0x7fffffff);
+}
+
+/// Which patches have to collect their candidates anew, and with how much slack.
+/// low, high       [items] boxes of patches
+/// stride_low, stride_high   [items] as enclose_strides leaves them
+/// near_rows, near_counts, near_others   the table of find_near_patches
+/// rows, counts, needs, others   a table: what was near when candidates were collected
+/// spent       [entries] how much nearer it may have come since [m]
+/// slacks      [items] how much nearer it may come [m]
+/// stamps      [items] when candidates were collected: not 0
+/// stale       [items] written: 1: to be collected anew
+/// epoch, age0 to age3   [1] their sum tells whether tables are still those of a stamp
+/// margin      of boxes in find_near_patches [m]
+/// least, most slack [m]
+/// substeps    of the present speed that slack is for
+/// worthwhile  if the most slack would not last for so many of them, there is none: collecting with
+///             slack takes longer
+WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const float4* stride_low, WEFT_GLOBAL const float4* stride_high,
+            WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
+            WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+            WEFT_GLOBAL float* spent, WEFT_GLOBAL float* slacks, WEFT_GLOBAL int* stamps,
+            WEFT_GLOBAL int* stale, WEFT_GLOBAL const int* epoch, WEFT_GLOBAL const int* age0,
+            WEFT_GLOBAL const int* age1, WEFT_GLOBAL const int* age2, WEFT_GLOBAL const int* age3,
+            int item_count, float margin, float least, float most, float substeps, float worthwhile,
+            int instance) {
+    const real zero = splat(0.0f);
+    const whole none = splat_whole(0);
+    const whole one = splat_whole(1);
+    const whole now = splat_whole(epoch[0] + age0[0] + age1[0] + age2[0] + age3[0]);
+    const whole stamp = load_whole(stamps, i);
+    const whole near_start = load_whole(near_rows, i);
+    const whole near_count = load_whole(near_counts, i);
+    const whole before = load_whole(counts, i);
+    const whole kept = stamp == now ? before : none;
+    whole is_stale = stamp == now ? none : one;
+    if (any_item(kept + near_count + is_stale > none)) {
+        const whole start = load_whole(rows, i);
+        const whole room = load_whole(rows, column(i, item_count, 1));
+        real slack = load(slacks, i);
+        const real_strides own = {load4(stride_low, i), load4(stride_high, i)};
+        real_box box;
+        box.low = xyz(load4(low, i));
+        box.high = xyz(load4(high, i));
+        box = widened(box, splat(margin));
+        whole n = none;
+        const int longest = largest_whole(kept);
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < kept;
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
+            const whole listed = gather_whole(others, entry);
+            const whole other = on ? listed : none;
+            const real sum =
+                gather(spent, entry) + nearing(own, gather_strides(stride_low, stride_high, other));
+            scatter_where(on, spent, entry, sum);
+            const whole too_near = sum <= slack ? none : one;
+            // Those near that are not among them.
+            whole found = patch_at(near_others, near_start, near_count, n);
+            whole is_new = on ? (found < other ? one : none) : none;
+            while (any_item(is_new > none)) {
+                is_stale = is_new > none ? one : is_stale;
+                n = n + is_new;
+                found = patch_at(near_others, near_start, near_count, n);
+                is_new = on ? (found < other ? one : none) : none;
+            }
+            // One that is not near, but not for being far.
+            real_box its;
+            its.low = xyz(gather4(low, address(other)));
+            its.high = xyz(gather4(high, address(other)));
+            const whole is_passed_over = overlap(box, its) ? one : none;
+            const whole has_changed =
+                found == other ? too_near : larger_whole(too_near, is_passed_over);
+            is_stale = on ? larger_whole(is_stale, has_changed) : is_stale;
+            const whole next = found == other ? n + one : n;
+            n = on ? next : n;
+        }
+        is_stale = n < near_count ? one : is_stale;
+        const mask anew = is_stale > none;
+        if (any_item(anew)) {
+            const whole count = anew ? near_count : none;
+            const int length = largest_whole(count);
+            real rate = zero;
+            for (int k = 0; k < length; ++k) {
+                const mask on = splat_whole(k) < count;
+                const whole listed = patch_at(near_others, near_start, near_count, splat_whole(k));
+                const whole other = on ? listed : none;
+                const real step = nearing(own, gather_strides(stride_low, stride_high, other));
+                rate = on ? larger(rate, step) : rate;
+                const integer entry =
+                    address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
+                const mask fits = both(on, splat_whole(k) < room);
+                scatter_whole_where(fits, others, entry, other);
+                scatter_where(fits, spent, entry, zero);
+            }
+            const real wanted = smaller(larger(splat(substeps) * rate, splat(least)), splat(most));
+            const real given = splat(worthwhile) * rate <= splat(most) ? wanted : zero;
+            slack = anew ? given : slack;
+            store(slacks, i, slack);
+            store_whole(counts, i, anew ? smaller_whole(near_count, room) : before);
+            store_whole(stamps, i, anew ? now : stamp);
+        }
+    }
+    store_whole(stale, i, is_stale);
+    store_whole(needs, i,
+                instance == 0 ? near_count : larger_whole(near_count, load_whole(needs, i)));
+}
+
+WEFT_KERNELS_END
+
+#endif
