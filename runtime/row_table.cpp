@@ -21,10 +21,11 @@ int slices_of(int items) { return (items + RowTable::kStride - 1) / RowTable::kS
 
 }  // namespace
 
-RowTable::RowTable(std::string name, const Segments& items, int room)
+RowTable::RowTable(std::string name, const Segments& items, int room, std::size_t plenty)
     : name_(std::move(name)),
       items_(items),
       item_count_(items.item(items.strip_count)),
+      plenty_(plenty),
       room_(static_cast<std::size_t>(items.strip_count), std::max(room, 0)),
       rows_(name_ + ".rows", 2 * static_cast<std::size_t>(item_count_)),
       counts_(name_ + ".counts", static_cast<std::size_t>(item_count_)),
@@ -89,6 +90,16 @@ bool RowTable::is_tight() const {
     return false;
 }
 
+/// most: that a strip has
+int RowTable::room_for_all(int most) const {
+    std::size_t bytes = 1;
+    for (const auto& column : columns_) bytes += column->element_size();
+    const std::size_t affordable =
+        plenty_ / (bytes * static_cast<std::size_t>(std::max(item_count_, 1)));
+    return std::max(std::min(most / 2, kMostForAll),
+                    static_cast<int>(std::min(affordable, static_cast<std::size_t>(most))));
+}
+
 void RowTable::grow() {
     std::vector<int> room = room_;
     for (int strip = 0; strip < items_.strip_count; ++strip) {
@@ -101,7 +112,7 @@ void RowTable::grow() {
             own = std::max(own, wanted);
         }
     }
-    const int least = std::min(*std::ranges::max_element(room) / 2, kMostForAll);
+    const int least = room_for_all(*std::ranges::max_element(room));
     std::ranges::transform(room, room_.begin(), [=](int own) { return std::max(own, least); });
     place_rows();
     for (const auto& column : columns_) column->resize(entry_count());

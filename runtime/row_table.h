@@ -25,8 +25,12 @@ class RowTable {
 public:
     static constexpr int kStride = 8;
 
+    /// Of a table's entries: up to so much is no matter, be it used or not [B]. (On a CPU, memory
+    /// that is not touched is none.)
+    static constexpr std::size_t kPlenty = std::size_t{64} << 20;
+
     /// items: one colour, all strips; they do not change. room: per row, at the beginning
-    RowTable(std::string name, const Segments& items, int room);
+    RowTable(std::string name, const Segments& items, int room, std::size_t plenty = kPlenty);
 
     int item_count() const { return item_count_; }
     /// Whose rows they are, by strips.
@@ -52,9 +56,10 @@ public:
     bool overflowed() const;
     /// Whether a row wanted so much that there is little left for the next frame.
     bool is_tight() const;
-    /// Makes room for all that was wanted and half as much again, in strips where it was tight,
-    /// as much in the strips beside them, and everywhere half of the most that a strip has, up to
-    /// 16: where rows get longer, others soon do.
+    /// Makes room for all that was wanted and half as much again, in strips where it was tight, and
+    /// as much in the strips beside them: where rows get longer, others soon do. So elsewhere too
+    /// there is as much, as far as the table takes no more than `plenty` for it; at least half of
+    /// the most that a strip has, up to 16.
     void grow();
     /// How often it has grown.
     int generation() const { return age_[0]; }
@@ -70,10 +75,12 @@ private:
     int most_needed(int strip) const;
     bool is_tight(int strip) const;
     void place_rows();
+    int room_for_all(int most) const;
 
     std::string name_;
     Segments items_;
     int item_count_;
+    std::size_t plenty_;     ///< [B]
     std::vector<int> room_;  ///< [strips]
     Buffer<int> rows_, counts_, needs_;
     Buffer<int> entry_begin_;  ///< [strips + 1]

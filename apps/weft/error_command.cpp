@@ -32,12 +32,7 @@ void print_study(const ErrorOptions& options, const Study& study, const std::str
 }
 
 Scene scene_of(const ErrorOptions& options) {
-    Scene scene = read_scene(options.run.scene, options.run.overrides());
-    if (scene.contact && options.trajectory) {
-        throw UserError(options.run.scene +
-                        ": weft error --trajectory does not know [contact] yet");
-    }
-    return scene;
+    return read_scene(options.run.scene, options.run.overrides());
 }
 
 std::filesystem::path make_folder(const ErrorOptions& options) {
@@ -116,7 +111,8 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
     add("--max-work", options.max_work, "the most substeps times iterations of a run")
         ->capture_default_str();
     add("--reference-substeps", options.reference_substeps,
-        "of the run that the others are compared with (8 times the most that are swept)");
+        "of the run that the others are compared with (8 times the most that are swept; with "
+        "[contact] twice)");
 }
 
 }  // namespace

@@ -4,6 +4,10 @@
 // Boxes around all places that vertices may reach in a substep, half of the thickness beyond: of
 // patches of a surface (simulation/contact/surface.h), of groups of them, and of strips. Unions
 // are exact, so what is in a box is in all boxes above it.
+//
+// Patches of strips that run aslant lie aslant in their boxes, and beside each other where boxes
+// overlap. So they have bounds along sums and differences of coordinates as well (18-DOP: Klosowski
+// et al. 1998).
 
 #include "kernels/columns.h"
 #include "kernels/lanes.h"
@@ -24,14 +28,23 @@ WEFT_INLINE real_box empty_box(void) {
     return box;
 }
 
-/// The ball that a vertex stays in, and the margin. anchor: xyz, w = the ball's radius
-WEFT_INLINE real_box box_of(real4 anchor, real margin) {
-    const real q = anchor.w + margin;
+WEFT_INLINE real_box box_around(real3 x, real q) {
     real_box box;
-    box.low = make3(anchor.x - q, anchor.y - q, anchor.z - q);
-    box.high = make3(anchor.x + q, anchor.y + q, anchor.z + q);
+    box.low = make3(x.x - q, x.y - q, x.z - q);
+    box.high = make3(x.x + q, x.y + q, x.z + q);
     return box;
 }
+
+/// The ball that a vertex stays in, and the margin. anchor: xyz, w = the ball's radius
+WEFT_INLINE real_box box_of(real4 anchor, real margin) {
+    return box_around(xyz(anchor), anchor.w + margin);
+}
+
+// By so much a sum or a difference of two coordinates changes at most, per distance.
+#define WEFT_SLANT 1.41421356f
+
+WEFT_INLINE real3 sums_of(real4 p) { return make3(p.x + p.y, p.x + p.z, p.y + p.z); }
+WEFT_INLINE real3 differences_of(real4 p) { return make3(p.x - p.y, p.x - p.z, p.y - p.z); }
 
 WEFT_INLINE real_box united(real_box a, real_box b) {
     real_box box;
@@ -55,23 +68,37 @@ WEFT_KERNEL(place_points, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const i
 /// hull_begin  [items + 1] where the vertices of each begin in `hulls`; none has none
 /// hulls       model vertices
 /// low, high   [items] written; w of high: the largest reach of its vertices [m]
+/// slant_low, slant_high   [2 * items] column-major, written: of the sums x + y, x + z, y + z, and
+///             of the differences likewise [m]
 /// margin      [m]
 WEFT_KERNEL(enclose_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* hull_begin,
             WEFT_GLOBAL const int* hulls, WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high,
-            float margin) {
+            WEFT_GLOBAL float4* slant_low, WEFT_GLOBAL float4* slant_high, float margin,
+            int item_count) {
     const whole begin = load_whole(hull_begin, i);
     const whole last = load_whole(hull_begin, column(i, 1, 1)) - splat_whole(1);
     const int longest = largest_whole(last - begin) + 1;
+    const item second = column(i, item_count, 1);
+    const real zero = splat(0.0f);
     real_box box = empty_box();
-    real reach = splat(0.0f);
+    real_box sums = box;
+    real_box differences = box;
+    real reach = zero;
     for (int k = 0; k < longest; ++k) {
         const integer entry = address(smaller_whole(begin + splat_whole(k), last));
         const real4 x = gather4(anchors, address(gather_whole(hulls, entry)));
+        const real q = splat(WEFT_SLANT) * (x.w + splat(margin));
         box = united(box, box_of(x, splat(margin)));
+        sums = united(sums, box_around(sums_of(x), q));
+        differences = united(differences, box_around(differences_of(x), q));
         reach = larger(x.w, reach);
     }
-    store4(low, i, with_w(box.low, splat(0.0f)));
+    store4(low, i, with_w(box.low, zero));
     store4(high, i, with_w(box.high, reach));
+    store4(slant_low, i, with_w(sums.low, zero));
+    store4(slant_high, i, with_w(sums.high, zero));
+    store4(slant_low, second, with_w(differences.low, zero));
+    store4(slant_high, second, with_w(differences.high, zero));
 }
 
 /// What items that have fewer than others read beside them, for nothing: an entry of their own, as
@@ -216,19 +243,62 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const f
     store4(drifts, i, with_w(drift, splat(WEFT_DRIFT_SHARE) * limit));
 }
 
+/// Which way groups of patches face, and whether each is flat and quiet: all of its patches are, by
+/// themselves, and face the same way within 15 degrees.
+/// patch_begin   [items + 1] where the patches of each begin
+/// patch_tilts   as tilt_patches leaves them
+/// tilts         [items] written: where it is flat and quiet xyz = the mean, of length 1, and w = 1;
+///               else 0
+WEFT_KERNEL(tilt_groups, WEFT_GLOBAL const int* patch_begin, WEFT_GLOBAL const float4* patch_tilts,
+            WEFT_GLOBAL float4* tilts) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const whole begin = load_whole(patch_begin, i);
+    const whole count = load_whole(patch_begin, column(i, 1, 1)) - begin;
+    const whole own = first_of(begin, count);
+    const int longest = largest_whole(count);
+    real3 mean = make3(zero, zero, zero);
+    real flat = one;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int k = 0; k < longest; ++k) {
+            const mask on = splat_whole(k) < count;
+            const real4 tilt = gather4(patch_tilts, address(on ? begin + splat_whole(k) : own));
+            if (pass == 0) {
+                mean = add_scaled(mean, xyz(tilt), on ? one : zero);
+                flat = on ? (tilt.w == one ? flat : zero) : flat;
+            } else {
+                // cos 15 degrees
+                const real faces = dot3(xyz(tilt), mean) >= splat(0.9659f) ? flat : zero;
+                flat = on ? faces : flat;
+            }
+        }
+        if (pass == 0) mean = scale(mean, one / divisor(length3(mean)));
+    }
+    const mask is_flat = flat > zero;
+    mean = make3(is_flat ? mean.x : zero, is_flat ? mean.y : zero, is_flat ? mean.z : zero);
+    store4(tilts, i, with_w(mean, flat));
+}
+
+/// Whether one of these patches is stale, or near to any.
+WEFT_INLINE int any_of_patches(WEFT_GLOBAL const int* numbers, int first_patch, int last_patch) {
+    int most = 0;
+    for (int p = first_patch; p <= last_patch; ++p) most += numbers[p];
+    return most > 0;
+}
+
 /// Boxes of triangles and of edges, where their patch is near another one or itself.
 /// points      [vertices] xyz [m], w = reach [m]
 /// corners     [corner_count * item_count] column-major
-/// patches     [items] whose each is
+/// patches     [items] whose each is; ascending
 /// near_counts [patches] how many patches are near
 /// low, high   [items] written; w of high: the largest reach of the corners [m]
 WEFT_KERNEL(enclose_primitives, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* corners,
             WEFT_GLOBAL const int* patches, WEFT_GLOBAL const int* near_counts,
             WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high, float margin, int corner_count,
             int item_count) {
-    const whole near = gather_whole(near_counts, address(load_whole(patches, i)));
-    const mask on = near > splat_whole(0);
-    if (any_item(on)) {
+    if (any_of_patches(near_counts, patches[i.first], patches[i.first + i.count - 1])) {
+        const whole near = gather_whole(near_counts, address(load_whole(patches, i)));
+        const mask on = near > splat_whole(0);
         real_box box = empty_box();
         real reach = splat(0.0f);
         for (int k = 0; k < corner_count; ++k) {

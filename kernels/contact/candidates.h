@@ -12,29 +12,22 @@ WEFT_KERNELS_BEGIN
 
 WEFT_INLINE real3 splat3(float4 p) { return make3(splat(p.x), splat(p.y), splat(p.z)); }
 
-/// Whether one of these patches is stale, or near to any.
-WEFT_INLINE int any_of_patches(WEFT_GLOBAL const int* numbers, int first_patch, int last_patch) {
-    int most = 0;
-    for (int p = first_patch; p <= last_patch; ++p) most += numbers[p];
-    return most > 0;
-}
-
-/// The rows of the items at hand, those of stale patches empty.
-/// is_stale  1 for these
+/// The rows of the items at hand, those that are filled anew empty.
+/// anew  not 0 for these
 WEFT_INLINE open_rows emptied_rows(WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-                                   whole is_stale, item i, int item_count) {
+                                   whole anew, item i, int item_count) {
     open_rows row = open_rows_of(rows, i, item_count);
-    row.count = is_stale > splat_whole(0) ? row.count : load_whole(counts, i);
+    row.count = anew > splat_whole(0) ? row.count : load_whole(counts, i);
     return row;
 }
 
 /// Others stay as they are.
-WEFT_INLINE void close_stale_rows(open_rows row, whole is_stale, WEFT_GLOBAL int* counts,
-                                  WEFT_GLOBAL int* needs, item i, int instance) {
+WEFT_INLINE void close_emptied_rows(open_rows row, whole anew, WEFT_GLOBAL int* counts,
+                                    WEFT_GLOBAL int* needs, item i, int instance) {
     const whole before = load_whole(needs, i);
     const whole most = instance == 0 ? row.count : larger_whole(row.count, before);
     store_whole(counts, i, smaller_whole(row.count, row.room));
-    store_whole(needs, i, is_stale > splat_whole(0) ? most : before);
+    store_whole(needs, i, anew > splat_whole(0) ? most : before);
 }
 
 /// The square of how near two of that reach have to be [m^2]. by: the halo or what bodies keep in
@@ -110,7 +103,7 @@ WEFT_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL con
                 }
             }
         }
-        close_stale_rows(row, is_stale, counts, needs, i, instance);
+        close_emptied_rows(row, is_stale, counts, needs, i, instance);
     }
 }
 
@@ -171,7 +164,7 @@ WEFT_KERNEL(collect_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL cons
                 }
             }
         }
-        close_stale_rows(row, is_stale, counts, needs, i, instance);
+        close_emptied_rows(row, is_stale, counts, needs, i, instance);
     }
 }
 
@@ -253,7 +246,7 @@ WEFT_KERNEL(collect_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
                 }
             }
         }
-        close_stale_rows(row, is_stale, counts, needs, i, instance);
+        close_emptied_rows(row, is_stale, counts, needs, i, instance);
     }
 }
 

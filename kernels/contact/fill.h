@@ -226,6 +226,22 @@ WEFT_INLINE contact_rows add_contact(
     return row;
 }
 
+/// How many patches are near to those of a vertex, at the most.
+/// count  of its patches; 0: it has no business here
+WEFT_INLINE whole most_near(WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const int* near_counts,
+                            whole first, whole count) {
+    const whole none = splat_whole(0);
+    const int longest = largest_whole(count);
+    whole most = none;
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const whole patch = gather_whole(patch_list, address(on ? first + splat_whole(k) : first));
+        const whole near = gather_whole(near_counts, address(patch));
+        most = on ? larger_whole(most, near) : most;
+    }
+    return most;
+}
+
 /// Fills the rows of each vertex: from pairs with itself, with its triangles, with its edges.
 /// anchors     [vertices] xyz: where pairs were found [m], w: how far the vertex may get [m]
 /// goals       [vertices] xyz: where inertia, or the scene, leads them [m]; w = 1/mass [1/kg]
@@ -236,31 +252,35 @@ WEFT_INLINE contact_rows add_contact(
 /// triangles   [3 * triangles] column-major: their vertices
 /// edges       [2 * edges] likewise
 /// apexes      [surface vertices] the vertex of each
+/// patch_begin, patch_list         likewise the patches that it belongs to: all that its pairs are of
+/// near_counts [patches] how many patches are near to each
 /// vt_rows, vt_counts, vt_others   per surface vertex 2 * triangle + 1 where the pair pushes, else
 ///                                 2 * triangle (runtime/row_table.h)
 /// tv_rows ... per triangle surface vertices; ee_rows ... per edge edges, as doubled
 /// plane_rows, plane_counts, plane_needs, planes      written; see truncate.h
 /// rows, counts, needs, corner0 to 3, normals, weights, measures  written; see rows.h
-/// least       [vertices] written: the least room before its planes [m]
+/// least       [vertices] written: the least room before its planes [m]; huge where there are no
+///             pairs, 0 where it is held and there may be some
 /// nearest     [vertices] written: the least distance of its pairs since instance 0 [m]
 WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
             WEFT_GLOBAL const float* stiffness, WEFT_GLOBAL const int* surface,
             WEFT_GLOBAL const int* triangle_begin, WEFT_GLOBAL const int* triangle_list,
             WEFT_GLOBAL const int* edge_begin, WEFT_GLOBAL const int* edge_list,
             WEFT_GLOBAL const int* triangles, WEFT_GLOBAL const int* edges,
-            WEFT_GLOBAL const int* apexes, WEFT_GLOBAL const int* vt_rows,
-            WEFT_GLOBAL const int* vt_counts, WEFT_GLOBAL const int* vt_others,
-            WEFT_GLOBAL const int* tv_rows, WEFT_GLOBAL const int* tv_counts,
-            WEFT_GLOBAL const int* tv_others, WEFT_GLOBAL const int* ee_rows,
-            WEFT_GLOBAL const int* ee_counts, WEFT_GLOBAL const int* ee_others,
-            WEFT_GLOBAL const int* plane_rows, WEFT_GLOBAL int* plane_counts,
-            WEFT_GLOBAL int* plane_needs, WEFT_GLOBAL float4* planes, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* corner0,
-            WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2, WEFT_GLOBAL int* corner3,
-            WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights, WEFT_GLOBAL float4* measures,
-            WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest, int vertex_count,
-            int triangle_count, int edge_count, float range, float slack, float factor,
-            int instance) {
+            WEFT_GLOBAL const int* apexes, WEFT_GLOBAL const int* patch_begin,
+            WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const int* near_counts,
+            WEFT_GLOBAL const int* vt_rows, WEFT_GLOBAL const int* vt_counts,
+            WEFT_GLOBAL const int* vt_others, WEFT_GLOBAL const int* tv_rows,
+            WEFT_GLOBAL const int* tv_counts, WEFT_GLOBAL const int* tv_others,
+            WEFT_GLOBAL const int* ee_rows, WEFT_GLOBAL const int* ee_counts,
+            WEFT_GLOBAL const int* ee_others, WEFT_GLOBAL const int* plane_rows,
+            WEFT_GLOBAL int* plane_counts, WEFT_GLOBAL int* plane_needs, WEFT_GLOBAL float4* planes,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+            WEFT_GLOBAL int* corner0, WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2,
+            WEFT_GLOBAL int* corner3, WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights,
+            WEFT_GLOBAL float4* measures, WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest,
+            int vertex_count, int triangle_count, int edge_count, float range, float slack,
+            float factor, int instance) {
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
     contact_settings settings;
@@ -274,15 +294,26 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     // may be written meanwhile, by detection in another strip's next substep.
     const int last = largest_whole(place);
     const whole apex = is_outside ? place - one : splat_whole(last > 0 ? last - 1 : 0);
+    const whole first_patch = gather_whole(patch_begin, address(apex));
+    const whole end_patch = gather_whole(patch_begin, address(apex + one));
+    const whole near = most_near(patch_list, near_counts, first_patch,
+                                 is_outside ? end_patch - first_patch : none);
+    // Most rows are empty, and were so before.
+    const real was_free = load(least, i);
+    const whole had_some = was_free < splat(WEFT_NO_PLANE) ? one : none;
+    if (instance != 0 && largest_whole(larger_whole(near, had_some)) == 0) return;
+
     const whole plane_start = load_whole(plane_rows, i);
     const whole plane_room = load_whole(plane_rows, column(i, vertex_count, 1));
     const whole start = load_whole(rows, i);
     const whole room = load_whole(rows, column(i, vertex_count, 1));
     const real farthest = out_of_reach(load4(anchors, i).w, settings);
-    contact_rows row = {none, none, splat(1e30f), splat(1e30f)};
-
+    const real far = splat(WEFT_NO_PLANE);
     const real free = load4(goals, i).w;
-    const mask moves = both(is_outside, free > splat(0.0f));
+    const mask moves = both(near > none, free > splat(0.0f));
+    const mask is_led = both(near > none, free <= splat(0.0f));
+    contact_rows row = {none, none, is_led ? splat(0.0f) : far, far};
+
     const whole own = last > 0 ? gather_whole(vt_counts, address(apex)) : none;
     const whole own_count = moves ? own : none;
     const whole own_start = gather_whole(vt_rows, address(apex));

@@ -29,29 +29,73 @@ WEFT_INLINE whole are_smooth(real_leaning a, real_leaning b) {
     return flat ? quiet : none;
 }
 
-/// 1 where a third patch lies as the two between which it is, and goes as they do.
+/// 1 where the patch between two smooth ones lies as they do, and goes as they do; or is one of
+/// them.
+/// via        the patch between
+/// first, second   the two
 WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
-                               whole via, real_leaning a, real_leaning b) {
+                               whole via, whole first, whole second, real_leaning a,
+                               real_leaning b) {
+    const mask is_third = both(via != first, via != second);
+    if (!any_item(is_third)) return splat_whole(1);
     const integer patch = address(via);
     const real_leaning between = {gather4(tilts, patch), gather4(drifts, patch)};
-    return are_smooth(between, a) * are_smooth(between, b);
+    return is_third ? are_smooth(between, a) * are_smooth(between, b) : splat_whole(1);
 }
 
-/// For each patch those whose boxes nearly overlap with its own, itself too, ascending. Left out
+/// Whether two groups of patches are flat and quiet, and face the same way within 30 degrees.
+WEFT_INLINE int are_aligned(float4 a, float4 b) {
+    return a.w > 0.0f && b.w > 0.0f && a.x * b.x + a.y * b.y + a.z * b.z >= 0.8660f;
+}
+
+/// Whether a group and another one, or itself, hang together and are so flat, with the one between
+/// them, that nothing of one can touch the other: all normals are within 60 degrees of one
+/// direction (30 of a patch, 15 of its group, half of 30 of both groups), and there is no border.
+/// tilts   as tilt_groups leaves them
+/// begin, besides, vias   of groups, as of patches in find_near_patches
+WEFT_INLINE int are_one_sheet(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
+                              WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
+                              int group, int other) {
+    if (!are_aligned(tilts[group], tilts[other])) return 0;
+    int entry = begin[group];
+    while (besides[entry] < other) ++entry;
+    if (besides[entry] != other) return 0;
+    const float4 between = tilts[vias[entry]];
+    return are_aligned(between, tilts[group]) && are_aligned(between, tilts[other]);
+}
+
+/// 1 for the items at hand whose patches have to be looked at, with those of a group.
+/// own           the group of each
+/// first, last   the first and the last of these
+WEFT_INLINE whole may_fold_onto(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
+                                WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
+                                whole own, int first, int last, int other) {
+    whole open = splat_whole(1);
+    for (int group = first; group <= last; ++group) {
+        if (!are_one_sheet(tilts, begin, besides, vias, group, other)) continue;
+        open = own == splat_whole(group) ? splat_whole(0) : open;
+    }
+    return open;
+}
+
+/// For each patch those whose bounds nearly overlap with its own, itself too, ascending. Left out
 /// are
 ///   what it hangs together with (and itself), by a vertex or by one patch between, while all of
 ///       them are flat and quiet and face one way: normals are within 60 degrees of one direction,
 ///       so there is no fold yet, and none comes;
+///   what groups of patches say of theirs (are_one_sheet), so that most patches need no look;
 ///   two patches that cannot move;  two of one body, where bodies do not touch themselves.
 /// Boxes are around boxes: roots (one per strip), blocks, groups, patches. begin of a level: where
 /// the children of each box begin in the next one.
-/// low, high     [items] boxes of patches
+/// low, high, slant_low, slant_high   bounds of patches, as enclose_patches leaves them
 /// tilts, drifts [items] as tilt_patches says
 /// beside_begin  [items + 1] where the list of each begins in `besides`: those that it hangs together
 ///               with, ascending, and as its end a number that is larger than any; vias: by which
+/// group_of      [items] the group of each patch; group_tilts, group_beside_begin, group_besides,
+///               group_vias: of groups, likewise
 /// bodies        [items]
 /// held          [items] 1: it cannot move
-/// margin        by which boxes may be apart, so that it is known for a while what is near [m]
+/// margin        by which they may be apart, so that it is known for a while what is near [m]
 /// rows, counts, needs, others   a table, as in kernels/neighbours.h
 WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
@@ -59,18 +103,25 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
             WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
             WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
             WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
             WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
-            WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, int item_count, int root_count, float margin, int self,
-            int instance) {
-    real_box box;
-    box.low = xyz(load4(low, i));
-    box.high = xyz(load4(high, i));
-    box = widened(box, splat(margin));
-    const float_box all = around_all(box);
+            WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* group_of,
+            WEFT_GLOBAL const float4* group_tilts, WEFT_GLOBAL const int* group_beside_begin,
+            WEFT_GLOBAL const int* group_besides, WEFT_GLOBAL const int* group_vias,
+            WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+            int item_count, int root_count, float margin, int touch_self, int instance) {
+    const whole self = item_numbers(i);
+    const real_bounds bounds = widened_bounds(
+        gather_bounds(low, high, slant_low, slant_high, self, item_count), splat(margin));
+    const float_box all = around_all(bounds.box);
+    const float_box all_sums = around_all(bounds.sums);
+    const float_box all_differences = around_all(bounds.differences);
     const real_leaning own = {load4(tilts, i), load4(drifts, i)};
+    const whole own_group = load_whole(group_of, i);
+    const int first_group = group_of[i.first];
+    const int last_group = group_of[i.first + i.count - 1];
     const whole body = load_whole(bodies, i);
     const whole is_held = load_whole(held, i);
     whole cursor = load_whole(beside_begin, i);
@@ -84,13 +135,26 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             const int group_end = block_begin[b + 1];
             for (int g = block_begin[b]; g < group_end; ++g) {
                 if (!meets(all, group_low[g], group_high[g])) continue;
+                const whole open = may_fold_onto(group_tilts, group_beside_begin, group_besides,
+                                                 group_vias, own_group, first_group, last_group, g);
+                if (!any_item(open > splat_whole(0))) continue;
                 const int end = group_begin[g + 1];
                 for (int p = group_begin[g]; p < end; ++p) {
                     const float4 p_low = low[p];
                     const float4 p_high = high[p];
                     if (!meets(all, p_low, p_high)) continue;
-                    mask on = overlaps(box, p_low, p_high);
-                    if (self == 0) on = both(on, body != splat_whole(bodies[p]));
+                    const float4 s_low = slant_low[p];
+                    const float4 s_high = slant_high[p];
+                    if (!meets(all_sums, s_low, s_high)) continue;
+                    const float4 d_low = slant_low[item_count + p];
+                    const float4 d_high = slant_high[item_count + p];
+                    if (!meets(all_differences, d_low, d_high)) continue;
+                    mask on = both(overlaps(bounds.box, p_low, p_high),
+                                   both(overlaps(bounds.sums, s_low, s_high),
+                                        overlaps(bounds.differences, d_low, d_high)));
+                    on = both(on, open > splat_whole(0));
+                    if (!any_item(on)) continue;
+                    if (touch_self == 0) on = both(on, body != splat_whole(bodies[p]));
                     if (held[p] != 0) on = both(on, is_held == splat_whole(0));
                     const real_leaning other = {splat4(tilts[p]), splat4(drifts[p])};
                     const whole smooth = are_smooth(own, other);
@@ -100,9 +164,12 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
                             cursor = beside < number ? cursor + splat_whole(1) : cursor;
                             beside = gather_whole(besides, address(cursor));
                         }
+                        const mask is_beside = beside == number;
                         const whole by = gather_whole(vias, address(cursor));
-                        const whole between = smooth * is_smooth_by(tilts, drifts, by, own, other);
-                        const whole skipped = beside == number ? between : splat_whole(0);
+                        const whole between =
+                            smooth * is_smooth_by(tilts, drifts, is_beside ? by : number, self,
+                                                  number, own, other);
+                        const whole skipped = is_beside ? between : splat_whole(0);
                         on = both(on, skipped == splat_whole(0));
                     }
                     row = with_entry(row, on, others, splat_whole(p));

@@ -81,7 +81,7 @@ WEFT_INLINE whole patch_at(WEFT_GLOBAL const int* others, whole start, whole cou
 }
 
 /// Which patches have to collect their candidates anew, and with how much slack.
-/// low, high       [items] boxes of patches
+/// low, high, slant_low, slant_high   bounds of patches, as enclose_patches leaves them
 /// stride_low, stride_high   [items] as enclose_strides leaves them
 /// near_rows, near_counts, near_others   the table of find_near_patches
 /// rows, counts, needs, others   a table: what was near when candidates were collected
@@ -90,12 +90,13 @@ WEFT_INLINE whole patch_at(WEFT_GLOBAL const int* others, whole start, whole cou
 /// stamps      [items] when candidates were collected: not 0
 /// stale       [items] written: 1: to be collected anew
 /// epoch, age0 to age3   [1] their sum tells whether tables are still those of a stamp
-/// margin      of boxes in find_near_patches [m]
+/// margin      as in find_near_patches [m]
 /// least, most slack [m]
 /// substeps    of the present speed that slack is for
 /// worthwhile  if the most slack would not last for so many of them, there is none: collecting with
 ///             slack takes longer
 WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+            WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
             WEFT_GLOBAL const float4* stride_low, WEFT_GLOBAL const float4* stride_high,
             WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
             WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* rows,
@@ -120,10 +121,9 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
         const whole room = load_whole(rows, column(i, item_count, 1));
         real slack = load(slacks, i);
         const real_strides own = {load4(stride_low, i), load4(stride_high, i)};
-        real_box box;
-        box.low = xyz(load4(low, i));
-        box.high = xyz(load4(high, i));
-        box = widened(box, splat(margin));
+        const real_bounds bounds = widened_bounds(
+            gather_bounds(low, high, slant_low, slant_high, item_numbers(i), item_count),
+            splat(margin));
         whole n = none;
         const int longest = largest_whole(kept);
         for (int k = 0; k < longest; ++k) {
@@ -145,12 +145,14 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
                 is_new = on ? (found < other ? one : none) : none;
             }
             // One that is not near, but not for being far.
-            real_box its;
-            its.low = xyz(gather4(low, address(other)));
-            its.high = xyz(gather4(high, address(other)));
-            const whole is_passed_over = overlap(box, its) ? one : none;
-            const whole has_changed =
-                found == other ? too_near : larger_whole(too_near, is_passed_over);
+            const whole is_near = found == other ? one : none;
+            whole is_passed_over = none;
+            if (any_item(both(on, is_near == none))) {
+                const real_bounds its =
+                    gather_bounds(low, high, slant_low, slant_high, other, item_count);
+                is_passed_over = bounds_overlap(bounds, its) ? one - is_near : none;
+            }
+            const whole has_changed = larger_whole(too_near, is_passed_over);
             is_stale = on ? larger_whole(is_stale, has_changed) : is_stale;
             const whole next = found == other ? n + one : n;
             n = on ? next : n;

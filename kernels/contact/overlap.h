@@ -60,6 +60,43 @@ WEFT_INLINE real_box widened(real_box box, real by) {
     return box;
 }
 
+/// What bounds a patch: its box, and its sums and differences.
+typedef struct {
+    real_box box, sums, differences;
+} real_bounds;
+
+WEFT_INLINE real_box gather_box(WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+                                whole patch) {
+    real_box box;
+    box.low = xyz(gather4(low, address(patch)));
+    box.high = xyz(gather4(high, address(patch)));
+    return box;
+}
+
+/// Those of a patch each, as enclose_patches leaves them.
+WEFT_INLINE real_bounds gather_bounds(WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+                                      WEFT_GLOBAL const float4* slant_low,
+                                      WEFT_GLOBAL const float4* slant_high, whole patch,
+                                      int patch_count) {
+    const whole second = patch + splat_whole(patch_count);
+    real_bounds bounds = {gather_box(low, high, patch), gather_box(slant_low, slant_high, patch),
+                          gather_box(slant_low, slant_high, second)};
+    return bounds;
+}
+
+WEFT_INLINE real_bounds widened_bounds(real_bounds bounds, real by) {
+    const real slant = splat(WEFT_SLANT) * by;
+    bounds.box = widened(bounds.box, by);
+    bounds.sums = widened(bounds.sums, slant);
+    bounds.differences = widened(bounds.differences, slant);
+    return bounds;
+}
+
+WEFT_INLINE mask bounds_overlap(real_bounds a, real_bounds b) {
+    return both(overlap(a.box, b.box),
+                both(overlap(a.sums, b.sums), overlap(a.differences, b.differences)));
+}
+
 /// Where the rows of the items at hand lie, and how long they are by now.
 typedef struct {
     whole start, room, count;

@@ -34,6 +34,23 @@ WEFT_INLINE mask is_pair(real square, whole pushes, pair_ranges r) {
     return square < (pushes > splat_whole(0) ? r.to_push : r.to_meet);
 }
 
+/// Whether something is to be done about the pairs of these patches: of those that had no patch
+/// near to them, and have none, they are known. (A patch that has one near to it either had one
+/// before, or is stale.)
+WEFT_INLINE int has_work(WEFT_GLOBAL const int* kept_counts, WEFT_GLOBAL const int* stale,
+                         int first_patch, int last_patch, int instance) {
+    return instance == 0 || any_of_patches(kept_counts, first_patch, last_patch) ||
+           any_of_patches(stale, first_patch, last_patch);
+}
+
+/// The same for items by themselves.
+WEFT_INLINE whole is_at_work(WEFT_GLOBAL const int* kept_counts, WEFT_GLOBAL const int* stale,
+                             WEFT_GLOBAL const int* patches, item i, int instance) {
+    const integer patch = load_index(patches, i);
+    const whole work = larger_whole(gather_whole(kept_counts, patch), gather_whole(stale, patch));
+    return instance == 0 ? splat_whole(1) : work;
+}
+
 /// Candidate k of each item; 0 where it has none.
 WEFT_INLINE whole candidate_at(WEFT_GLOBAL const int* candidates, whole start, mask on, int k) {
     const whole place = on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start;
@@ -111,63 +128,79 @@ WEFT_INLINE open_rows with_vertex_and_triangle(
 /// points      [items] xyz [m], w = reach [m]
 /// patches     [items] whose each is
 /// near_counts [patches] how many patches are near
+/// kept_counts, stale  [patches] as check_candidates leaves them
 /// candidate_rows, candidate_counts, candidates   the table of collect_triangles
 /// corners     [3 * triangle_count] column-major
 /// beyond, owned, ring_begin, ring   as in regions.h
 /// rows, counts, needs, others       a table, as in kernels/neighbours.h
 WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* candidate_rows,
+            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
             WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
             WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
             WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
             WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, int triangle_count,
             float halo, float least, int instance) {
-    open_rows row = open_rows_of(rows, i, item_count);
-    if (any_of_patches(near_counts, patches[i.first], patches[i.first + i.count - 1])) {
-        const real4 x = load4(points, i);
-        const whole self = item_numbers(i);
-        const whole start = load_whole(candidate_rows, i);
-        const whole count = load_whole(candidate_counts, i);
-        const int longest = largest_whole(count);
-        for (int n = 0; n < longest; ++n) {
-            const mask on = splat_whole(n) < count;
-            const whole t = candidate_at(candidates, start, on, n);
-            const triangle_corners k = gather_corners(corners, t, triangle_count);
-            const placed triangle = gather_triangle(points, k, splat(0.5f * halo));
-            row = with_vertex_and_triangle(row, on, self, x, k, triangle, t + t, points, beyond,
-                                           owned, ring_begin, ring, others, triangle_count, halo,
-                                           least);
+    const int first_patch = patches[i.first];
+    const int last_patch = patches[i.first + i.count - 1];
+    if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
+        const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
+        open_rows row = emptied_rows(rows, counts, anew, i, item_count);
+        if (any_of_patches(near_counts, first_patch, last_patch)) {
+            const real4 x = load4(points, i);
+            const whole self = item_numbers(i);
+            const whole start = load_whole(candidate_rows, i);
+            const whole count =
+                anew > splat_whole(0) ? load_whole(candidate_counts, i) : splat_whole(0);
+            const int longest = largest_whole(count);
+            for (int n = 0; n < longest; ++n) {
+                const mask on = splat_whole(n) < count;
+                const whole t = candidate_at(candidates, start, on, n);
+                const triangle_corners k = gather_corners(corners, t, triangle_count);
+                const placed triangle = gather_triangle(points, k, splat(0.5f * halo));
+                row = with_vertex_and_triangle(row, on, self, x, k, triangle, t + t, points, beyond,
+                                               owned, ring_begin, ring, others, triangle_count,
+                                               halo, least);
+            }
         }
+        close_emptied_rows(row, anew, counts, needs, i, instance);
     }
-    close_rows(row, counts, needs, i, instance);
 }
 
 /// For each triangle the vertices: the same pairs. Parameters as above
 WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* candidate_rows,
+            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
             WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
             WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
             WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
             WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
             WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
             float least, int instance) {
-    open_rows row = open_rows_of(rows, i, item_count);
-    if (any_of_patches(near_counts, patches[i.first], patches[i.first + i.count - 1])) {
-        const triangle_corners k = gather_corners(corners, item_numbers(i), item_count);
-        const placed triangle = gather_triangle(points, k, splat(0.5f * halo));
-        const whole start = load_whole(candidate_rows, i);
-        const whole count = load_whole(candidate_counts, i);
-        const int longest = largest_whole(count);
-        for (int n = 0; n < longest; ++n) {
-            const mask on = splat_whole(n) < count;
-            const whole v = candidate_at(candidates, start, on, n);
-            const real4 x = gather4(points, address(v));
-            row = with_vertex_and_triangle(row, on, v, x, k, triangle, v + v, points, beyond, owned,
-                                           ring_begin, ring, others, item_count, halo, least);
+    const int first_patch = patches[i.first];
+    const int last_patch = patches[i.first + i.count - 1];
+    if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
+        const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
+        open_rows row = emptied_rows(rows, counts, anew, i, item_count);
+        if (any_of_patches(near_counts, first_patch, last_patch)) {
+            const triangle_corners k = gather_corners(corners, item_numbers(i), item_count);
+            const placed triangle = gather_triangle(points, k, splat(0.5f * halo));
+            const whole start = load_whole(candidate_rows, i);
+            const whole count =
+                anew > splat_whole(0) ? load_whole(candidate_counts, i) : splat_whole(0);
+            const int longest = largest_whole(count);
+            for (int n = 0; n < longest; ++n) {
+                const mask on = splat_whole(n) < count;
+                const whole v = candidate_at(candidates, start, on, n);
+                const real4 x = gather4(points, address(v));
+                row = with_vertex_and_triangle(row, on, v, x, k, triangle, v + v, points, beyond,
+                                               owned, ring_begin, ring, others, item_count, halo,
+                                               least);
+            }
         }
+        close_emptied_rows(row, anew, counts, needs, i, instance);
     }
-    close_rows(row, counts, needs, i, instance);
 }
 
 WEFT_INLINE real3 either(mask m, real3 a, real3 b) {
@@ -186,40 +219,49 @@ WEFT_INLINE whole edges_push(closest_points c) {
 /// For each edge the edges. Parameters as above;
 /// ends        [2 * item_count] column-major
 WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* candidate_rows,
+            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
             WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
             WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
             WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
             float least, int instance) {
-    open_rows row = open_rows_of(rows, i, item_count);
-    if (any_of_patches(near_counts, patches[i.first], patches[i.first + i.count - 1])) {
-        const real margin = splat(0.5f * halo);
-        const whole self = item_numbers(i);
-        const placed own =
-            place_edge(gather4(points, load_index(ends, i)),
-                       gather4(points, load_index(ends, column(i, item_count, 1))), margin);
-        const whole start = load_whole(candidate_rows, i);
-        const whole count = load_whole(candidate_counts, i);
-        const int longest = largest_whole(count);
-        for (int n = 0; n < longest; ++n) {
-            const mask on = splat_whole(n) < count;
-            const whole e = candidate_at(candidates, start, on, n);
-            const integer end0 = address(gather_whole(ends, address(e)));
-            const integer end1 = address(gather_whole(ends, address(e + splat_whole(item_count))));
-            const placed other = place_edge(gather4(points, end0), gather4(points, end1), margin);
-            const mask meet = both(on, overlap(own.box, other.box));
-            if (!any_item(meet)) continue;
-            const mask in_order = self < e;
-            const closest_points c =
-                closest_edges(either(in_order, own.a, other.a), either(in_order, own.b, other.b),
-                              either(in_order, other.a, own.a), either(in_order, other.b, own.b));
-            const pair_ranges range = ranges_of(own.reach, other.reach, least, halo);
-            const whole pushes = edges_push(c);
-            row = with_entry(row, both(meet, is_pair(c.square, pushes, range)), others,
-                             e + e + pushes);
+    const int first_patch = patches[i.first];
+    const int last_patch = patches[i.first + i.count - 1];
+    if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
+        const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
+        open_rows row = emptied_rows(rows, counts, anew, i, item_count);
+        if (any_of_patches(near_counts, first_patch, last_patch)) {
+            const real margin = splat(0.5f * halo);
+            const whole self = item_numbers(i);
+            const placed own =
+                place_edge(gather4(points, load_index(ends, i)),
+                           gather4(points, load_index(ends, column(i, item_count, 1))), margin);
+            const whole start = load_whole(candidate_rows, i);
+            const whole count =
+                anew > splat_whole(0) ? load_whole(candidate_counts, i) : splat_whole(0);
+            const int longest = largest_whole(count);
+            for (int n = 0; n < longest; ++n) {
+                const mask on = splat_whole(n) < count;
+                const whole e = candidate_at(candidates, start, on, n);
+                const integer end0 = address(gather_whole(ends, address(e)));
+                const integer end1 =
+                    address(gather_whole(ends, address(e + splat_whole(item_count))));
+                const placed other =
+                    place_edge(gather4(points, end0), gather4(points, end1), margin);
+                const mask meet = both(on, overlap(own.box, other.box));
+                if (!any_item(meet)) continue;
+                const mask in_order = self < e;
+                const closest_points c = closest_edges(
+                    either(in_order, own.a, other.a), either(in_order, own.b, other.b),
+                    either(in_order, other.a, own.a), either(in_order, other.b, own.b));
+                const pair_ranges range = ranges_of(own.reach, other.reach, least, halo);
+                const whole pushes = edges_push(c);
+                row = with_entry(row, both(meet, is_pair(c.square, pushes, range)), others,
+                                 e + e + pushes);
+            }
         }
+        close_emptied_rows(row, anew, counts, needs, i, instance);
     }
-    close_rows(row, counts, needs, i, instance);
 }
 
 WEFT_KERNELS_END

@@ -153,13 +153,17 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
     }
 }
 
-/// Lets all see the positions in the next iteration.
+/// Lets all see the positions in the next iteration, of those that a contact may have.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
+/// least      [vertices] as fill_contacts leaves it
 /// snapshots  [2 * vertices] written: of odd iterations in the second half
 /// ahead      by how many iterations behind this one is that which is to see it
-WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* snapshots,
-            int vertex_count, int iteration, int ahead) {
-    store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), load4(positions, i));
+WEFT_KERNEL(take_snapshot, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float* least,
+            WEFT_GLOBAL float4* snapshots, int vertex_count, int iteration, int ahead) {
+    const mask has_pairs = load(least, i) < splat(WEFT_NO_PLANE);
+    if (!any_item(has_pairs)) return;
+    store4_where(has_pairs, snapshots, column(i, vertex_count, (iteration + ahead) % 2),
+                 load4(positions, i));
 }
 
 WEFT_KERNELS_END

@@ -21,6 +21,9 @@
 /// asks for more, but for the slack that all leave.
 #define WEFT_CONTACT_START_SLACK 0.25f
 
+/// The room before its planes of a vertex that has no pairs [m].
+#define WEFT_NO_PLANE 1e30f
+
 /// Between the entries of one row: rows lie in slices of 8 items (runtime/row_table.h).
 #define WEFT_CONTACT_STRIDE 8
 

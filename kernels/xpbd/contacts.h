@@ -20,20 +20,25 @@
 
 WEFT_KERNELS_BEGIN
 
-/// Lets all see where the elements have led the vertices.
+/// Lets all see where the elements have led the vertices that a contact may have.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
 /// counts     [vertices] how many contacts each has
+/// least      [vertices] as fill_contacts leaves it
 /// snapshots  [2 * vertices] written: of odd iterations in the second half; w = 1/mass of the part
 ///            of a contact [1/kg]
 /// ahead      by how many iterations behind this one is that which is to see it
 WEFT_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL float4* snapshots, int vertex_count, int iteration, int ahead) {
+            WEFT_GLOBAL const float* least, WEFT_GLOBAL float4* snapshots, int vertex_count,
+            int iteration, int ahead) {
+    const mask has_pairs = load(least, i) < splat(WEFT_NO_PLANE);
+    if (!any_item(has_pairs)) return;
     const real4 x = load4(positions, i);
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     real light = splat(0.0f);
     for (int k = 0; k < longest; ++k) light = splat_whole(k) < count ? light + x.w : light;
-    store4(snapshots, column(i, vertex_count, (iteration + ahead) % 2), with_w(xyz(x), light));
+    store4_where(has_pairs, snapshots, column(i, vertex_count, (iteration + ahead) % 2),
+                 with_w(xyz(x), light));
 }
 
 /// How light a contact's vertices are together, with the parts of their masses that it has: the sum

@@ -60,15 +60,14 @@ void PairCandidates::add_enclose_accesses(Step::Adding& task, int first, int nex
         .updates(high_, first_patch, last_patch);
 }
 
-Launch PairCandidates::check(PairTable& near, Buffer<float4>& patch_low,
-                             Buffer<float4>& patch_high) {
+Launch PairCandidates::check(PairTable& near, PatchBounds bounds) {
     RowTable& kept = kept_.table;
-    return launch(kernels::check_candidates, s_.patches.segments, patch_low, patch_high, low_,
-                  high_, near.table.rows(), near.table.counts(), near.others, kept.rows(),
-                  kept.counts(), kept.needs(), kept_.others, spent_, slacks_, stamps_, stale_,
-                  epoch_, kept.age(), triangles_.table.age(), vertices_.table.age(),
-                  edges_.table.age(), kept.item_count(), margin(), least_, most_, kSubsteps,
-                  kWorthwhile, kInstance);
+    return launch(kernels::check_candidates, s_.patches.segments, bounds.low, bounds.high,
+                  bounds.slant_low, bounds.slant_high, low_, high_, near.table.rows(),
+                  near.table.counts(), near.others, kept.rows(), kept.counts(), kept.needs(),
+                  kept_.others, spent_, slacks_, stamps_, stale_, epoch_, kept.age(),
+                  triangles_.table.age(), vertices_.table.age(), edges_.table.age(),
+                  kept.item_count(), margin(), least_, most_, kSubsteps, kWorthwhile, kInstance);
 }
 
 void PairCandidates::add_check_accesses(Step::Adding& task, int first_patch, int last_patch) {

@@ -8,6 +8,11 @@
 
 namespace weft {
 
+/// What bounds patches, as enclose_patches leaves it (kernels/contact/boxes.h).
+struct PatchBounds {
+    Buffer<float4>&low, &high, &slant_low, &slant_high;
+};
+
 /// What may become a pair while surfaces come no nearer to each other than by a slack, so that not
 /// every substep has to look for pairs everywhere. Which substep collects what is no part of the
 /// result: pairs are chosen among the candidates, in their order, by what they are in that substep.
@@ -28,8 +33,9 @@ public:
     PairTable& triangles() { return triangles_; }
     PairTable& vertices() { return vertices_; }
     PairTable& edges() { return edges_; }
-    Buffer<int>& stale() { return stale_; }      ///< [patches] 1: to be collected anew
-    Buffer<float>& slacks() { return slacks_; }  ///< [patches] [m]
+    Buffer<int>& kept() { return kept_.table.counts(); }  ///< [patches] how many were near then
+    Buffer<int>& stale() { return stale_; }               ///< [patches] 1: to be collected anew
+    Buffer<float>& slacks() { return slacks_; }           ///< [patches] [m]
     /// Whatever was collected counts no more. What this gives is to be shown to the devices.
     BufferStorage& forget();
 
@@ -39,7 +45,7 @@ public:
     void add_enclose_accesses(Step::Adding& task, int first, int next, int first_patch,
                               int last_patch);
     /// In the task that finds patches near to each other, behind that: who has to collect anew.
-    Launch check(PairTable& near, Buffer<float4>& patch_low, Buffer<float4>& patch_high);
+    Launch check(PairTable& near, PatchBounds bounds);
     void add_check_accesses(Step::Adding& task, int first_patch, int last_patch);
 
 private:

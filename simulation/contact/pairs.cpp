@@ -64,8 +64,11 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
       points_("contact.points", size_of(s_.vertices.items)),
       tilts_("contact.tilts", size_of(s_.patches)),
       drifts_("contact.drifts", size_of(s_.patches)),
+      group_tilts_("contact.groups.tilts", size_of(s_.groups.items)),
       patch_low_("contact.patches.low", size_of(s_.patches)),
       patch_high_("contact.patches.high", size_of(s_.patches)),
+      slant_low_("contact.patches.slant_low", 2 * size_of(s_.patches)),
+      slant_high_("contact.patches.slant_high", 2 * size_of(s_.patches)),
       triangle_low_("contact.triangles.low", size_of(s_.triangles.items)),
       triangle_high_("contact.triangles.high", size_of(s_.triangles.items)),
       edge_low_("contact.edges.low", size_of(s_.edges.items)),
@@ -98,10 +101,12 @@ void ContactPairs::make_boxes_body(int kind) {
         kind,
         {launch_on(kernels::place_points, s_.vertices.items, anchors_, s_.model_vertices, points_),
          launch_on(kernels::enclose_patches, s_.patches, anchors_, s_.hulls.begin, s_.hulls.items,
-                   patch_low_, patch_high_, margin),
+                   patch_low_, patch_high_, slant_low_, slant_high_, margin,
+                   surface_.patch_count()),
          launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, foresees_, s_.face_begin,
                    s_.face_corners, patch_high_, s_.quiet, tilts_, drifts_,
                    surface_.faces.begin.back()),
+         launch_on(kernels::tilt_groups, s_.groups.items, s_.groups.children, tilts_, group_tilts_),
          candidates_.enclose(), unite(s_.groups, patch_low_, patch_high_),
          unite(s_.blocks, s_.groups.low, s_.groups.high),
          unite(s_.roots, s_.blocks.low, s_.blocks.high)}};
@@ -116,11 +121,12 @@ void ContactPairs::make_near_body(int kind) {
         {launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
                    s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
                    s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
-                   tilts_, drifts_, s_.beside_begin, s_.besides, s_.vias, s_.bodies, s_.held,
-                   table.rows(), table.counts(), table.needs(), near_.others,
-                   surface_.patch_count(), surface_.strip_count(), candidates_.margin(),
-                   settings_.self ? 1 : 0, kInstance),
-         candidates_.check(near_, patch_low_, patch_high_),
+                   slant_low_, slant_high_, tilts_, drifts_, s_.beside_begin, s_.besides, s_.vias,
+                   s_.group_of, group_tilts_, s_.group_beside_begin, s_.group_besides,
+                   s_.group_vias, s_.bodies, s_.held, table.rows(), table.counts(), table.needs(),
+                   near_.others, surface_.patch_count(), surface_.strip_count(),
+                   candidates_.margin(), settings_.self ? 1 : 0, kInstance),
+         candidates_.check(near_, {patch_low_, patch_high_, slant_low_, slant_high_}),
          launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
                    s_.triangles.patches, table.counts(), triangle_low_, triangle_high_, margin, 3,
                    surface_.triangle_count()),
@@ -159,8 +165,9 @@ void ContactPairs::add_choosing(std::vector<Launch>& launches) {
     const auto add = [&](auto kernel, SurfaceBuffers::Patched& items, PairTable& candidates,
                          auto&&... values) {
         launches.push_back(launch_on(kernel, items.items, points_, items.patches,
-                                     near_.table.counts(), candidates.table.rows(),
-                                     candidates.table.counts(), candidates.others, values...));
+                                     near_.table.counts(), candidates_.kept(), candidates_.stale(),
+                                     candidates.table.rows(), candidates.table.counts(),
+                                     candidates.others, values...));
     };
     add(kernels::find_triangles, s_.vertices, candidates_.triangles(), s_.corners, s_.beyond,
         s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
@@ -187,8 +194,14 @@ void ContactPairs::add_boxes(Step& step, const Part& part, RegionId region) {
                                      first_patch, last_patch);
     updates(adding, tilts_, s_.patches, part);
     updates(adding, drifts_, s_.patches, part);
+    updates(adding, group_tilts_, s_.groups.items, part);
     updates(adding, patch_low_, s_.patches, part);
     updates(adding, patch_high_, s_.patches, part);
+    for (Buffer<float4>* slants : {&slant_low_, &slant_high_}) {
+        const int all = surface_.patch_count();
+        adding.updates(*slants, first_patch, last_patch)
+            .updates(*slants, all + first_patch, all + last_patch);
+    }
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
         updates(adding, level->low, level->items, part);
         updates(adding, level->high, level->items, part);
@@ -201,8 +214,11 @@ void ContactPairs::add_near(Step& step, const Part& part, RegionId region) {
     auto adding = step.add(near_task_, 0, part.strips(), region);
     reads_all(adding, tilts_, s_.patches);
     reads_all(adding, drifts_, s_.patches);
+    reads_all(adding, group_tilts_, s_.groups.items);
     reads_all(adding, patch_low_, s_.patches);
     reads_all(adding, patch_high_, s_.patches);
+    adding.reads(slant_low_, 0, 2 * surface_.patch_count())
+        .reads(slant_high_, 0, 2 * surface_.patch_count());
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
         reads_all(adding, level->low, level->items);
         reads_all(adding, level->high, level->items);
@@ -229,6 +245,7 @@ void ContactPairs::add_pairs(Step& step, const Part& part, RegionId region) {
     reads_all(adding, edge_high_, s_.edges.items);
     adding.reads(near_.table.counts(), first, last)
         .reads(near_.others, near_.table.entries())
+        .reads(candidates_.kept(), first, last)
         .reads(candidates_.stale(), first, last)
         .reads(candidates_.slacks(), first, last);
     fills(adding, candidates_.triangles(), s_.vertices.items, part);

@@ -82,8 +82,8 @@ private:
     Buffer<float4>&anchors_, &goals_;
     Segments strips_;
     Buffer<int> foresees_{"contact.foresees", 1};
-    Buffer<float4> points_, tilts_, drifts_;
-    Buffer<float4> patch_low_, patch_high_;
+    Buffer<float4> points_, tilts_, drifts_, group_tilts_;
+    Buffer<float4> patch_low_, patch_high_, slant_low_, slant_high_;
     Buffer<float4> triangle_low_, triangle_high_, edge_low_, edge_high_;
     Table near_, vt_, tv_, ee_;
     PairCandidates candidates_;

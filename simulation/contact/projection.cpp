@@ -8,6 +8,7 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
     : model_(model),
       rows_(contact.rows()),
       snapshots_(contact.snapshots()),
+      least_(contact.least()),
       rubbing_(contact.rubbing()),
       multipliers_(rows_.table.add_column<float>("multipliers")),
       rubs_(rubbing_.friction > 0.0 ? &rows_.table.add_column<float4>("rubs") : nullptr) {
@@ -16,7 +17,7 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
 
 Launch ContactProjection::share(int ahead) {
     return launch(kernels::share_masses, model_.vertices(), *model_.positions, rows_.table.counts(),
-                  snapshots_, model_.vertex_count(), kIteration, ahead);
+                  least_, snapshots_, model_.vertex_count(), kIteration, ahead);
 }
 
 void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
@@ -26,7 +27,9 @@ void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
 void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
                                               int last) {
     const int half = iteration % 2 * model_.vertex_count();
-    task.reads(rows_.table.counts(), first, last).updates(snapshots_, half + first, half + last);
+    task.reads(rows_.table.counts(), first, last)
+        .reads(least_, first, last)
+        .updates(snapshots_, half + first, half + last);
 }
 
 void ContactProjection::add_project(std::vector<Launch>& launches) {

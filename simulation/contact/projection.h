@@ -29,6 +29,7 @@ private:
     Model& model_;
     ContactRows rows_;
     Buffer<float4>& snapshots_;  ///< [2 * vertices] the contacts'
+    Buffer<float>& least_;       ///< [vertices] likewise
     Rubbing rubbing_;
     Buffer<float>& multipliers_;  ///< [entries of the rows]
     Buffer<float4>* rubs_;        ///< likewise; null: no friction

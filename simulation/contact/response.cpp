@@ -91,7 +91,9 @@ ContactResponse::Incidence::Incidence(const Surface& s, int vertex_count)
       edge_begin("contact.edge_begin", s.edges_at.begin.size()),
       edge_list("contact.edge_list", s.edges_at.items.size()),
       triangles("contact.triangles", 3 * s.triangles.size()),
-      edges("contact.edges", 2 * s.edges.size()) {
+      edges("contact.edges", 2 * s.edges.size()),
+      patch_begin("contact.patch_begin", s.patches_at.begin.size()),
+      patch_list("contact.patch_list", s.patches_at.items.size()) {
     for (std::size_t v = 0; v < s.vertices.size(); ++v) {
         surface[static_cast<std::size_t>(s.vertices[v])] = static_cast<int>(v) + 1;
     }
@@ -100,6 +102,8 @@ ContactResponse::Incidence::Incidence(const Surface& s, int vertex_count)
     copy(s.triangles_at.items, triangle_list);
     copy(s.edges_at.begin, edge_begin);
     copy(s.edges_at.items, edge_list);
+    copy(s.patches_at.begin, patch_begin);
+    copy(s.patches_at.items, patch_list);
     fill_columns(s.triangles, s, triangles);
     fill_columns(s.edges, s, edges);
 }
@@ -162,11 +166,12 @@ void ContactResponse::make_fill() {
         {launch(kernels::fill_contacts, model_.vertices(), anchors_, goals_, stiffness_,
                 incidence_.surface, incidence_.triangle_begin, incidence_.triangle_list,
                 incidence_.edge_begin, incidence_.edge_list, incidence_.triangles, incidence_.edges,
-                incidence_.apexes, vt.table.rows(), vt.table.counts(), vt.others, tv.table.rows(),
-                tv.table.counts(), tv.others, ee.table.rows(), ee.table.counts(), ee.others,
-                planes_table_.rows(), planes_table_.counts(), planes_table_.needs(), planes_,
-                contacts_.rows(), contacts_.counts(), contacts_.needs(), corner0_, corner1_,
-                corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
+                incidence_.apexes, incidence_.patch_begin, incidence_.patch_list,
+                pairs_.near().table.counts(), vt.table.rows(), vt.table.counts(), vt.others,
+                tv.table.rows(), tv.table.counts(), tv.others, ee.table.rows(), ee.table.counts(),
+                ee.others, planes_table_.rows(), planes_table_.counts(), planes_table_.needs(),
+                planes_, contacts_.rows(), contacts_.counts(), contacts_.needs(), corner0_,
+                corner1_, corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
                 model_.vertex_count(), pairs_.surface().triangle_count(),
                 pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
          snapshot(*model_.positions, 0), snapshot(*model_.positions, 1),
@@ -264,6 +269,8 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
 
 void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region) {
     const int from = std::max(region.begin - 1, 0);
+    const Segments& patches = pairs_.buffers().patches.segments;
+    task.reads(pairs_.near().table.counts(), patches.item(from), patches.item(region.end));
     const auto add = [&](ContactPairs::Table& pairs, const Segments& items) {
         task.reads(pairs.table.counts(), items.item(from), items.item(region.end))
             .reads(pairs.others, pairs.table.entries(), from, region.end);
@@ -309,7 +316,7 @@ Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
-    return launch(kernels::take_snapshot, model_.vertices(), positions, snapshots_,
+    return launch(kernels::take_snapshot, model_.vertices(), positions, least_, snapshots_,
                   model_.vertex_count(), kIteration, ahead);
 }
 
@@ -333,7 +340,7 @@ void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>
 void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
                                             int last) {
     const int half = (iteration + 1) % 2 * model_.vertex_count();
-    task.updates(snapshots_, half + first, half + last);
+    task.reads(least_, first, last).updates(snapshots_, half + first, half + last);
 }
 
 /// Both halves: who hears late of others sees of them where they began, not an earlier substep.
@@ -403,6 +410,7 @@ std::vector<FrozenContact> ContactResponse::frozen() {
 void ContactResponse::put(std::span<const FrozenContact> contacts,
                           std::span<const float4> positions, std::span<const float4> targets) {
     fill_rows(rows(), contacts, positions, targets);
+    std::ranges::fill(least_.span(), 0.0f);  // who has pairs is not known
 }
 
 ContactRecord ContactResponse::account() {

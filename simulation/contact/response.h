@@ -68,6 +68,9 @@ public:
     /// [2 * vertices] what is shown: to even iterations in the first half, to odd ones in the
     /// second.
     Buffer<float4>& snapshots() { return snapshots_; }
+    /// [vertices] how far each is from its planes [m]; WEFT_NO_PLANE where it has no pairs, and so
+    /// nobody reads its snapshots.
+    Buffer<float>& least() { return least_; }
     /// What a substep begins with in both halves, instead of the positions; in the task that fills
     /// the rows.
     void show_start(Launch even, Launch odd);
@@ -111,6 +114,7 @@ private:
         Buffer<int> triangle_begin, triangle_list, edge_begin, edge_list;
         Buffer<int> triangles;  ///< [3 * triangles] column-major
         Buffer<int> edges;      ///< [2 * edges] likewise
+        Buffer<int> patch_begin, patch_list;
     };
     ContactResponse(Model& model, int first_kind);
     void make_fill();

@@ -67,6 +67,7 @@ public:
         find_shared_features();
         find_faces();
         find_hulls();
+        find_patches_at();
         find_beside();
         mark_held();
         return std::move(s_);
@@ -296,17 +297,21 @@ private:
         }
     }
 
-    /// Patches with a vertex in common, itself too, ascending.
-    std::vector<std::vector<int>> touching() const {
+    void find_patches_at() {
         std::vector<std::vector<int>> at(static_cast<std::size_t>(s_.vertex_count()));
         for (int p = 0; p < s_.patch_count(); ++p) {
             for (const int v : s_.hulls[p]) at[static_cast<std::size_t>(v)].push_back(p);
         }
+        s_.patches_at = flattened(at);
+    }
+
+    /// Patches with a vertex in common, itself too, ascending.
+    std::vector<std::vector<int>> touching() const {
         std::vector<std::vector<int>> touching;
         for (int p = 0; p < s_.patch_count(); ++p) {
             std::vector<int>& others = touching.emplace_back();
             for (const int v : s_.hulls[p]) {
-                const auto& row = at[static_cast<std::size_t>(v)];
+                const auto row = s_.patches_at[v];
                 others.insert(others.end(), row.begin(), row.end());
             }
             std::ranges::sort(others);

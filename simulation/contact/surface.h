@@ -64,6 +64,7 @@ struct Surface {
 
     Lists triangles_at;  ///< of a vertex, ascending
     Lists edges_at;      ///< likewise
+    Lists patches_at;    ///< those in whose hulls it is, ascending
     Lists ring;          ///< the vertices that share an edge with a vertex, ascending
     /// [triangles] beyond the edge that is opposite to a corner: the vertex of the other triangle
     /// there; -1: there is none

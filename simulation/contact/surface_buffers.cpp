@@ -93,26 +93,26 @@ std::vector<std::array<int, 3>> corners_of_faces(const Surface& surface) {
     return corners;
 }
 
-Lists beside_of(const Surface& surface) {
-    Lists lists;
-    for (int p = 0; p < surface.patch_count(); ++p) {
-        const auto list = surface.beside[p];
-        lists.items.insert(lists.items.end(), list.begin(), list.end());
-        lists.items.push_back(std::numeric_limits<int>::max());
-        lists.close();
+/// Each list with an end: a number that is larger than any.
+Lists ended(const Lists& lists) {
+    Lists with_ends;
+    for (int i = 0; i < lists.count(); ++i) {
+        with_ends.items.insert(with_ends.items.end(), lists[i].begin(), lists[i].end());
+        with_ends.items.push_back(std::numeric_limits<int>::max());
+        with_ends.close();
     }
-    return lists;
+    return with_ends;
 }
 
-std::vector<int> vias_of(const Surface& surface) {
-    std::vector<int> vias;
-    for (std::size_t p = 0; p < surface.patch_body.size(); ++p) {
-        const auto first = surface.between.begin();
-        vias.insert(vias.end(), first + surface.beside.begin[p],
-                    first + surface.beside.begin[p + 1]);
-        vias.push_back(0);
+/// What stands beside the items of ended lists.
+std::vector<int> beside_ended(const Lists& lists, const std::vector<int>& beside) {
+    std::vector<int> with_ends;
+    for (std::size_t i = 0; i + 1 < lists.begin.size(); ++i) {
+        with_ends.insert(with_ends.end(), beside.begin() + lists.begin[i],
+                         beside.begin() + lists.begin[i + 1]);
+        with_ends.push_back(0);
     }
-    return vias;
+    return with_ends;
 }
 
 double least_height(const std::array<int, 3>& corners, const Surface& surface,
@@ -155,6 +155,10 @@ SurfaceBuffers::Level::Level(const std::string& name, const std::vector<int>& st
       high("contact." + name + ".high", child_begin.size()) {}
 
 SurfaceBuffers::SurfaceBuffers(const Surface& s, const std::vector<Vec3>& rest)
+    : SurfaceBuffers(s, rest, find_groups(s, grouped(s.strip_patches).child_begin)) {}
+
+SurfaceBuffers::SurfaceBuffers(const Surface& s, const std::vector<Vec3>& rest,
+                               const PatchGroups& patch_groups)
     : vertices("vertices", s.patch_vertices, s),
       triangles("triangles", s.patch_triangles, s),
       edges("edges", s.patch_edges, s),
@@ -169,16 +173,20 @@ SurfaceBuffers::SurfaceBuffers(const Surface& s, const std::vector<Vec3>& rest)
       face_begin("faces.begin", s.faces.begin),
       face_corners("faces.corners", in_model(column_major(corners_of_faces(s)), s)),
       hulls("hulls", {s.hulls.begin, in_model(s.hulls.items, s)}),
-      beside_begin("beside.begin", beside_of(s).begin),
-      besides("besides", beside_of(s).items),
-      vias("vias", vias_of(s)),
+      beside_begin("beside.begin", ended(s.beside).begin),
+      besides("besides", ended(s.beside).items),
+      vias("vias", beside_ended(s.beside, s.between)),
       bodies("bodies", s.patch_body),
       held("held", {s.patch_held.begin(), s.patch_held.end()}),
       quiet("contact.quiet", std::max(s.patch_body.size(), std::size_t{1})),
       groups(make_level("groups", grouped(s.strip_patches))),
       blocks(make_level("blocks", grouped(grouped(s.strip_patches).strip_begin))),
       roots(make_level("roots",
-                       one_per_strip(grouped(grouped(s.strip_patches).strip_begin).strip_begin))) {
+                       one_per_strip(grouped(grouped(s.strip_patches).strip_begin).strip_begin))),
+      group_of("group_of", patch_groups.of_patch),
+      group_beside_begin("groups.beside.begin", ended(patch_groups.beside).begin),
+      group_besides("groups.besides", ended(patch_groups.beside).items),
+      group_vias("groups.vias", beside_ended(patch_groups.beside, patch_groups.between)) {
     for (int p = 0; p < s.patch_count(); ++p) {
         double least = std::numeric_limits<double>::max();
         for (const int t : s.faces[p]) {

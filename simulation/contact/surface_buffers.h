@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "runtime/launch.h"
+#include "simulation/contact/patch_groups.h"
 #include "simulation/contact/surface.h"
 
 namespace weft {
@@ -43,7 +44,7 @@ struct SurfaceBuffers {
         Buffer<float4> low, high;
     };
 
-    explicit SurfaceBuffers(const Surface& surface, const std::vector<Vec3>& rest);
+    SurfaceBuffers(const Surface& surface, const std::vector<Vec3>& rest);
 
     Patched vertices, triangles, edges;
     Ints model_vertices;  ///< [vertices]
@@ -64,6 +65,13 @@ struct SurfaceBuffers {
     Buffer<float>
         quiet;  ///< [patches] how far vertices may get before a triangle could turn over [m]
     Level groups, blocks, roots;
+    Ints group_of;  ///< [patches]
+    /// PatchGroups::beside, as those of patches.
+    Ints group_beside_begin, group_besides, group_vias;
+
+private:
+    SurfaceBuffers(const Surface& surface, const std::vector<Vec3>& rest,
+                   const PatchGroups& patch_groups);
 };
 
 }  // namespace weft

@@ -56,6 +56,7 @@ void write_study(const std::string& path, const TrajectoryStudy& study) {
     hdf5::write_int_attribute(file.id(), "frames", frames);
 
     const hdf5::Handle reference = hdf5::create_group(file.id(), "reference");
+    hdf5::write_text_attribute(reference.id(), "by", study.reference_by);
     const std::array<int, 1> substeps = {study.reference_substeps};
     hdf5::write_int_attribute(reference.id(), "substeps", substeps);
     write_number(reference.id(), "doubt_m", study.doubt);

@@ -34,7 +34,8 @@ struct TrajectoryStudy {
     std::string scene;
     int frames = 0;
     int vertices = 0;
-    double frame_time = 0.0;  ///< [s]
+    double frame_time = 0.0;   ///< [s]
+    std::string reference_by;  ///< what made the reference, in words
     int reference_substeps = 0;
     /// [m] RMS between the reference and itself with half as many substeps: how far it is sure.
     double doubt = 0.0;

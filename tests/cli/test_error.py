@@ -7,7 +7,7 @@ import xml.etree.ElementTree as xml
 import h5py
 import pytest
 from recorded import two_devices
-from weft_program import SCENES, SHEET, expect_error, weft, weft_json
+from weft_program import SCENES, SHEET, TOUCHING, expect_error, weft, weft_json
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -60,34 +60,6 @@ stiffness = 1.0e3
 shape = "sphere"
 center = [0.7, 0.85, 0.1]
 radius = 0.1
-"""
-
-
-# A sheet comes down on another one, which hangs at two sides, a little askew.
-TOUCHING = """
-[scene]
-name = "touching"
-frames = 8
-dt = 0.01
-substeps = 4
-[solver]
-method = "vbd"
-iterations = 20
-[contact]
-thickness = 0.02
-[[cloth]]
-name = "low"
-grid = { size = [0.5, 0.5], resolution = [9, 9] }
-density = 0.2
-stretch = { stiffness = 300.0 }
-pins = { edges = ["x-", "x+"] }
-[[cloth]]
-name = "high"
-grid = { size = [0.3, 0.3], resolution = [7, 7] }
-rotate = [0, 1, 0, 20]
-translate = [0.01, 0.021, 0.02]
-density = 0.2
-stretch = { stiffness = 300.0 }
 """
 
 
@@ -337,12 +309,6 @@ def test_planes_in_the_way_are_told(folder):
     assert held > 0 and study["curves"][0]["truncated"] == held
     (note,) = [note for note in study["notes"] if "where these curves end" in note]
     assert f"vbd on cpu/1 (auto): {held}" in note
-
-
-def test_fine_runs_know_no_contact(folder):
-    (folder / "scene.toml").write_text(TOUCHING)
-    expect_error(weft("error", "scene.toml", "--out", "out", "--quiet", "--trajectory", cwd=folder),
-                 2, "--trajectory does not know [contact]")
 
 
 @pytest.mark.parametrize("arguments, parts", [

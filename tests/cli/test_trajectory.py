@@ -5,7 +5,7 @@ import xml.etree.ElementTree as xml
 
 import h5py
 import pytest
-from weft_program import SHEET, expect_error, weft, weft_json
+from weft_program import SHEET, TOUCHING, expect_error, weft, weft_json
 
 SVG = "{http://www.w3.org/2000/svg}"
 SWINGING = SHEET.replace("frames = 3", "frames = 5").replace("1.0e4", "1.0e3") + """
@@ -39,6 +39,7 @@ def test_whole_runs(folder):
     solvers = {row["solver"] for row in rows}
     assert {"xpbd", "vbd", "jpgd"} <= solvers
     assert len(rows) == len(solvers) * 2 * len(pairs)
+    assert study["reference"]["by"] == "explicit steps in double precision"
     assert study["reference"]["substeps"] >= 64 and study["frames"] == 5
 
     distances = {}
@@ -57,11 +58,28 @@ def test_whole_runs(folder):
         assert int(row["pareto"]) == (not any(beats(other, row) for other in rows))
 
 
+def test_runs_with_contact(folder):
+    """The reference is a solver's; all solvers tend to where it is."""
+    (folder / "scene.toml").write_text(TOUCHING)
+    study, rows = trajectories(folder, "--devices", "cpu/1", "--solvers", "xpbd,newton", *SWEEP)
+    reference = study["reference"]
+    assert reference["by"] == "newton with 12 iterations" and reference["substeps"] == 16
+    distances = {(row["solver"], int(row["substeps"]), int(row["iterations"])): float(row["rms_m"])
+                 for row in rows}
+    for solver in ("xpbd", "newton"):
+        coarse, middle, fine = (distances[solver, substeps, 4] for substeps in (1, 2, 8))
+        assert fine < 0.3 * coarse and middle < coarse, "smaller steps are nearer"
+    assert 0.0 < reference["doubt_m"] < 0.3 * distances["newton", 1, 4]
+    expect_error(weft("error", "scene.toml", "--trajectory", "--quiet", *SWEEP,
+                      "--reference-substeps", "15", cwd=folder), 2, "15", "16", "twice")
+
+
 def test_files_and_picture(folder):
     study, rows = trajectories(folder, "--devices", "cpu/1", "--solvers", "xpbd,vbd", *SWEEP)
     with h5py.File(folder / "out" / "trajectory.h5") as file:
         assert file.attrs["format"] == "weft-trajectory"
         assert file["reference/doubt_m"][0] == study["reference"]["doubt_m"]
+        assert file["reference"].attrs["by"] == study["reference"]["by"]
         for curve, solver in zip(file["curves"].values(), ("xpbd", "vbd")):
             assert curve.attrs["solver"] == solver and curve.attrs["unfinished"] == ""
             own = [row for row in rows if row["solver"] == solver]

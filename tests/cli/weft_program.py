@@ -13,6 +13,33 @@ WEFT = os.environ["WEFT"]
 SCENES = pathlib.Path(os.environ["WEFT_ROOT"]) / "scenes"
 CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
+# A sheet comes down on another one, which hangs at two sides, a little askew.
+TOUCHING = """
+[scene]
+name = "touching"
+frames = 8
+dt = 0.01
+substeps = 4
+[solver]
+method = "vbd"
+iterations = 20
+[contact]
+thickness = 0.02
+[[cloth]]
+name = "low"
+grid = { size = [0.5, 0.5], resolution = [9, 9] }
+density = 0.2
+stretch = { stiffness = 300.0 }
+pins = { edges = ["x-", "x+"] }
+[[cloth]]
+name = "high"
+grid = { size = [0.3, 0.3], resolution = [7, 7] }
+rotate = [0, 1, 0, 20]
+translate = [0.01, 0.021, 0.02]
+density = 0.2
+stretch = { stiffness = 300.0 }
+"""
+
 SHEET = """
 [scene]
 name = "sheet"

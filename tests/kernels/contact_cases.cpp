@@ -20,8 +20,10 @@ void enclose_patches_case(KernelCase& c) {
     auto& hulls = add_numbers(c, "hulls", begin[at(c.items)], 20);
     auto& low = c.add<float4>("low", c.items);
     auto& high = c.add<float4>("high", c.items);
+    auto& slant_low = c.add<float4>("slant_low", 2 * c.items);
+    auto& slant_high = c.add<float4>("slant_high", 2 * c.items);
     c.launch = launch(kernels::enclose_patches, c.segments, anchors, begin, hulls, low, high,
-                      0.5f * kHalo);
+                      slant_low, slant_high, 0.5f * kHalo, c.items);
 }
 
 void enclose_boxes_case(KernelCase& c) {
@@ -91,8 +93,44 @@ struct Level {
     }
 };
 
+/// Some flat, most of these facing one way, and which of them hang together.
+struct GroupsBeside {
+    Buffer<float4>& tilts;
+    Buffer<int>& begin;
+    Buffer<int>& besides;
+    Buffer<int>& vias;
+
+    GroupsBeside(KernelCase& c, int groups)
+        : tilts(c.add<float4>("groups.tilts", groups)),
+          begin(add_begins(c, "groups.beside.begin", groups, 1, 9)),
+          besides(add_numbers(c, "groups.besides", begin[at(groups)], groups)),
+          vias(add_numbers(c, "groups.vias", begin[at(groups)], groups)) {
+        for (float4& tilt : tilts.span()) {
+            tilt = {0.0f, c.random.integer(0, 3) == 0 ? -1.0f : 1.0f, 0.0f,
+                    static_cast<float>(c.random.integer(0, 3) > 0)};
+        }
+        for (int g = 0; g < groups; ++g) {
+            std::sort(besides.data() + begin[at(g)], besides.data() + begin[at(g + 1)]);
+            besides[at(begin[at(g + 1)] - 1)] = std::numeric_limits<int>::max();
+        }
+    }
+};
+
+void tilt_groups_case(KernelCase& c) {
+    auto& begin = add_begins(c, "begin", c.items, 0, 8);
+    auto& patch_tilts = c.add<float4>("patch_tilts", begin[at(c.items)] + 1);
+    for (float4& tilt : patch_tilts.span()) {
+        tilt = c.random.point(0.3f);
+        tilt.y = c.random.integer(0, 20) == 0 ? -1.0f : 1.0f;
+        tilt.w = static_cast<float>(1 + c.random.integer(0, 20) / 20);
+    }
+    auto& tilts = c.add<float4>("tilts", c.items);
+    c.launch = launch(kernels::tilt_groups, c.segments, begin, patch_tilts, tilts);
+}
+
 void near_case(KernelCase& c) {
     Boxes boxes(c, "boxes", c.items, 0.3f);
+    Boxes slants(c, "slants", 2 * c.items, 2.0f);
     Level groups(c, "groups", c.items, boxes);
     Level blocks(c, "blocks", groups.count, groups.boxes);
     Level roots(c, "roots", blocks.count, blocks.boxes);
@@ -110,21 +148,28 @@ void near_case(KernelCase& c) {
         std::sort(beside.data() + begin[at(p)], beside.data() + begin[at(p + 1)]);
         beside[at(begin[at(p + 1)] - 1)] = std::numeric_limits<int>::max();
     }
+    GroupsBeside beside_groups(c, groups.count);
+    auto& group_of = c.add<int>("group_of", c.items);
+    for (int g = 0; g < groups.count; ++g) {
+        for (int p = groups.begin[at(g)]; p < groups.begin[at(g + 1)]; ++p) group_of[at(p)] = g;
+    }
     auto& bodies = add_numbers(c, "bodies", c.items, 3);
     auto& held = add_numbers(c, "held", c.items, 2);
     Table table(c, "near", c.items, 3);
-    c.launch =
-        launch(kernels::find_near_patches, c.segments, roots.boxes.low, roots.boxes.high,
-               roots.begin, blocks.boxes.low, blocks.boxes.high, blocks.begin, groups.boxes.low,
-               groups.boxes.high, groups.begin, boxes.low, boxes.high, tilts, drifts, begin, beside,
-               vias, bodies, held, table.rows, table.counts, table.needs, table.others, c.items,
-               roots.count, 0.1f, c.flavour == Flavour::kRandom ? 1 : 0, kInstance);
+    c.launch = launch(
+        kernels::find_near_patches, c.segments, roots.boxes.low, roots.boxes.high, roots.begin,
+        blocks.boxes.low, blocks.boxes.high, blocks.begin, groups.boxes.low, groups.boxes.high,
+        groups.begin, boxes.low, boxes.high, slants.low, slants.high, tilts, drifts, begin, beside,
+        vias, group_of, beside_groups.tilts, beside_groups.begin, beside_groups.besides,
+        beside_groups.vias, bodies, held, table.rows, table.counts, table.needs, table.others,
+        c.items, roots.count, 0.1f, c.flavour == Flavour::kRandom ? 1 : 0, kInstance);
 }
 
 const bool added = add_case("place_points", place_points_case) &&
                    add_case("enclose_patches", enclose_patches_case) &&
                    add_case("enclose_boxes", enclose_boxes_case) &&
                    add_case("tilt_patches", tilt_patches_case) &&
+                   add_case("tilt_groups", tilt_groups_case) &&
                    add_case("enclose_primitives", enclose_primitives_case) &&
                    add_case("find_near_patches", near_case);
 

@@ -22,6 +22,7 @@ void enclose_strides_case(KernelCase& c) {
 /// Some rows as they were, some with others; some worn out, some of another time.
 void check_case(KernelCase& c) {
     Boxes boxes(c, "boxes", c.items, 0.3f);
+    Boxes slants(c, "slants", 2 * c.items, 2.0f);
     Boxes strides(c, "strides", c.items, 0.02f);
     Table near(c, "near", c.items, 4);
     near.fill(c, c.items);
@@ -44,10 +45,18 @@ void check_case(KernelCase& c) {
     auto& age = c.add<int>("age", 1);
     epoch[0] = 2;
     age[0] = 2;
-    c.launch = launch(kernels::check_candidates, c.segments, boxes.low, boxes.high, strides.low,
-                      strides.high, near.rows, near.counts, near.others, kept.rows, kept.counts,
-                      kept.needs, kept.others, spent, slacks, stamps, stale, epoch, age, age, age,
-                      age, c.items, 0.1f, 0.1f, 20.0f, 8.0f, 2.0f, kInstance);
+    c.launch = launch(kernels::check_candidates, c.segments, boxes.low, boxes.high, slants.low,
+                      slants.high, strides.low, strides.high, near.rows, near.counts, near.others,
+                      kept.rows, kept.counts, kept.needs, kept.others, spent, slacks, stamps, stale,
+                      epoch, age, age, age, age, c.items, 0.1f, 0.1f, 20.0f, 8.0f, 2.0f, kInstance);
+}
+
+/// Rows of each item, some of them with entries.
+Table add_rows(KernelCase& c, const std::string& name) {
+    constexpr int kRoom = 3;
+    Table table(c, name, c.items, kRoom);
+    for (int& count : table.counts.span()) count = c.random.integer(0, kRoom);
+    return table;
 }
 
 /// What collecting needs of patches.
@@ -75,8 +84,7 @@ void collect_triangles_case(KernelCase& c) {
     Boxes boxes(c, "boxes", triangles, 0.6f);
     enclose(patches.boxes, patches.count, begin, boxes);
     auto& knots = add_numbers(c, "knots", c.items, c.items);
-    Table table(c, "vt", c.items, 3);
-    for (int& count : table.counts.span()) count = c.random.integer(0, 3);
+    Table table = add_rows(c, "vt");
     c.launch = launch(kernels::collect_triangles, c.segments, points, patches.of_item,
                       patches.near.rows, patches.near.counts, patches.near.others, from.stale,
                       from.slacks, patches.boxes.low, patches.boxes.high, begin, corners, knots,
@@ -102,8 +110,7 @@ void collect_vertices_case(KernelCase& c) {
         }
     }
     auto& knots = add_numbers(c, "knots", vertices, vertices);
-    Table table(c, "tv", c.items, 3);
-    for (int& count : table.counts.span()) count = c.random.integer(0, 3);
+    Table table = add_rows(c, "tv");
     c.launch =
         launch(kernels::collect_vertices, c.segments, points, patches.of_item, patches.near.rows,
                patches.near.counts, patches.near.others, from.stale, from.slacks, patches.boxes.low,
@@ -121,8 +128,7 @@ void collect_edges_case(KernelCase& c) {
     auto& knots = add_numbers(c, "knots", c.items + 2, c.items + 2);
     Boxes boxes(c, "boxes", c.items, 0.6f);
     enclose(patches.boxes, patches.count, begin, boxes);
-    Table table(c, "ee", c.items, 3);
-    for (int& count : table.counts.span()) count = c.random.integer(0, 3);
+    Table table = add_rows(c, "ee");
     c.launch =
         launch(kernels::collect_edges, c.segments, points, patches.of_item, patches.near.rows,
                patches.near.counts, patches.near.others, from.stale, from.slacks, patches.boxes.low,
@@ -146,6 +152,20 @@ struct Features {
     }
 };
 
+/// Which patches have had others near to them, and which have not but do now.
+struct Kept {
+    Buffer<int>& counts;
+    Buffer<int>& stale;
+
+    Kept(KernelCase& c, const Patches& patches)
+        : counts(add_numbers(c, "kept", patches.count, 3)),
+          stale(add_numbers(c, "stale", patches.count, 2)) {
+        for (int p = 0; p < patches.count; ++p) {
+            if (patches.near.counts[at(p)] > 0 && counts[at(p)] == 0) stale[at(p)] = 1;
+        }
+    }
+};
+
 /// Any others below `of`, of items whose patch has one near to it.
 void fill_near(KernelCase& c, const Patches& patches, Table& candidates, int of) {
     for (int i = 0; i < c.items; ++i) {
@@ -166,11 +186,13 @@ void find_triangles_case(KernelCase& c) {
     Features f(c, c.items, triangles);
     Table candidates(c, "candidates", c.items, 4);
     fill_near(c, patches, candidates, triangles);
-    Table table(c, "vt", c.items, 3);
-    c.launch = launch(kernels::find_triangles, c.segments, points, patches.of_item,
-                      patches.near.counts, candidates.rows, candidates.counts, candidates.others,
-                      corners, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
-                      table.needs, table.others, c.items, triangles, kHalo, kLeast, kInstance);
+    const Kept kept(c, patches);
+    Table table = add_rows(c, "vt");
+    c.launch =
+        launch(kernels::find_triangles, c.segments, points, patches.of_item, patches.near.counts,
+               kept.counts, kept.stale, candidates.rows, candidates.counts, candidates.others,
+               corners, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
+               table.needs, table.others, c.items, triangles, kHalo, kLeast, kInstance);
 }
 
 void find_vertices_case(KernelCase& c) {
@@ -181,11 +203,13 @@ void find_vertices_case(KernelCase& c) {
     Features f(c, vertices, c.items);
     Table candidates(c, "candidates", c.items, 4);
     fill_near(c, patches, candidates, vertices);
-    Table table(c, "tv", c.items, 3);
-    c.launch = launch(kernels::find_vertices, c.segments, points, patches.of_item,
-                      patches.near.counts, candidates.rows, candidates.counts, candidates.others,
-                      corners, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
-                      table.needs, table.others, c.items, kHalo, kLeast, kInstance);
+    const Kept kept(c, patches);
+    Table table = add_rows(c, "tv");
+    c.launch =
+        launch(kernels::find_vertices, c.segments, points, patches.of_item, patches.near.counts,
+               kept.counts, kept.stale, candidates.rows, candidates.counts, candidates.others,
+               corners, f.beyond, f.owned, f.ring_begin, f.ring, table.rows, table.counts,
+               table.needs, table.others, c.items, kHalo, kLeast, kInstance);
 }
 
 void find_edges_case(KernelCase& c) {
@@ -194,10 +218,12 @@ void find_edges_case(KernelCase& c) {
     auto& ends = add_numbers(c, "ends", 2 * c.items, c.items + 2);
     Table candidates(c, "candidates", c.items, 4);
     fill_near(c, patches, candidates, c.items);
-    Table table(c, "ee", c.items, 3);
+    const Kept kept(c, patches);
+    Table table = add_rows(c, "ee");
     c.launch = launch(kernels::find_edges, c.segments, points, patches.of_item, patches.near.counts,
-                      candidates.rows, candidates.counts, candidates.others, ends, table.rows,
-                      table.counts, table.needs, table.others, c.items, kHalo, kLeast, kInstance);
+                      kept.counts, kept.stale, candidates.rows, candidates.counts,
+                      candidates.others, ends, table.rows, table.counts, table.needs, table.others,
+                      c.items, kHalo, kLeast, kInstance);
 }
 
 const bool added =

@@ -210,11 +210,20 @@ void multiply_case(KernelCase& c) {
                       curvatures, grips, products, c.items);
 }
 
+/// Some have no pairs.
+Buffer<float>& add_least(KernelCase& c) {
+    auto& least = c.add<float>("least", c.items);
+    for (float& room : least.span()) {
+        room = c.random.integer(0, 2) == 0 ? c.random.real(-0.1f, 0.1f) : WEFT_NO_PLANE;
+    }
+    return least;
+}
+
 void snapshot_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
-    c.launch =
-        launch(kernels::take_snapshot, c.segments, positions, snapshots, c.items, kIteration, 1);
+    c.launch = launch(kernels::take_snapshot, c.segments, positions, add_least(c), snapshots,
+                      c.items, kIteration, 1);
 }
 
 /// What kernels over the rows of all vertices take; each vertex is a corner of its contacts.
@@ -280,7 +289,7 @@ void share_case(KernelCase& c) {
     OwnContacts contacts(c);
     auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
     c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.counts,
-                      snapshots, c.items, kIteration, 1);
+                      add_least(c), snapshots, c.items, kIteration, 1);
 }
 
 void project_case(KernelCase& c) {
@@ -331,6 +340,8 @@ void fill_case(KernelCase& c) {
     auto& triangles = add_indices(c, "triangles", 3 * triangle_count, c.items);
     auto& edges = add_indices(c, "edges", 2 * edge_count, c.items);
     auto& apexes = add_indices(c, "apexes", c.items, c.items);
+    const auto [patch_begin, patch_list] = add_lists(c, "patch", c.items, c.items);
+    auto& near_counts = add_indices(c, "near_counts", c.items, 3);
     Rows vt(c, "vt", c.items, 3);
     Rows tv(c, "tv", triangle_count, 2);
     Rows ee(c, "ee", edge_count, 2);
@@ -342,16 +353,22 @@ void fill_case(KernelCase& c) {
     auto& planes = c.add<float4>("planes", plane_rows.entries);
     Contacts contacts(c);
     auto& needs = add_indices(c, "needs", c.items, 9);
-    auto& least = c.add<float>("least", c.items);
+    auto& least = add_least(c);
     auto& nearest = c.add<float>("nearest", c.items);
-    c.launch = launch(kernels::fill_contacts, c.segments, anchors, goals, stiffness, surface,
-                      *triangle_begin, *triangle_list, *edge_begin, *edge_list, triangles, edges,
-                      apexes, vt.rows, vt.counts, vt_others, tv.rows, tv.counts, tv_others, ee.rows,
-                      ee.counts, ee_others, plane_rows.rows, plane_rows.counts, plane_needs, planes,
-                      contacts.rows.rows, contacts.rows.counts, needs, contacts.corner0,
-                      contacts.corner1, contacts.corner2, contacts.corner3, contacts.normals,
-                      contacts.weights, contacts.measures, least, nearest, c.items, triangle_count,
-                      edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
+    // Who had no pairs had no rows.
+    for (int i = 0; i < c.items; ++i) {
+        if (least[at(i)] == WEFT_NO_PLANE)
+            plane_rows.counts[at(i)] = contacts.rows.counts[at(i)] = 0;
+    }
+    c.launch =
+        launch(kernels::fill_contacts, c.segments, anchors, goals, stiffness, surface,
+               *triangle_begin, *triangle_list, *edge_begin, *edge_list, triangles, edges, apexes,
+               *patch_begin, *patch_list, near_counts, vt.rows, vt.counts, vt_others, tv.rows,
+               tv.counts, tv_others, ee.rows, ee.counts, ee_others, plane_rows.rows,
+               plane_rows.counts, plane_needs, planes, contacts.rows.rows, contacts.rows.counts,
+               needs, contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
+               contacts.normals, contacts.weights, contacts.measures, least, nearest, c.items,
+               triangle_count, edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
 }
 
 /// Where columns begin, and what is summed in them.

@@ -61,7 +61,7 @@ TEST_F(RowTables, PacksAreContiguous) {
 }
 
 TEST_F(RowTables, StripsThatWereTooSmallGrowAndTheirNeighbours) {
-    RowTable table("table", items_, 2);
+    RowTable table("table", items_, 2, 0);
     const auto& column = table.add_column<float>("distances");
     std::fill(table.needs().data(), table.needs().data() + 31, 1);
     EXPECT_FALSE(table.overflowed());
@@ -92,10 +92,24 @@ TEST_F(RowTables, GrowsOnceForWhatIsWanted) {
 
 /// One crowded strip must not cost all others its memory.
 TEST_F(RowTables, FarFromLongRowsRoomIsBounded) {
-    RowTable table("table", items_, 2);
+    RowTable table("table", items_, 2, 0);
     table.needs()[30] = 100;
     table.grow();
     places(table, {16, 16, 150, 150});
+}
+
+/// In a small table it costs little: all rows get as long.
+TEST_F(RowTables, FarFromLongRowsThereIsAsMuchRoomAsIsPlenty) {
+    RowTable table("table", items_, 2);
+    table.add_column<int>("others");
+    table.needs()[30] = 100;
+    table.grow();
+    places(table, {150, 150, 150, 150});
+    RowTable larger("table", items_, 2, 31 * 5 * 40);
+    larger.add_column<int>("others");
+    larger.needs()[30] = 100;
+    larger.grow();
+    places(larger, {40, 40, 150, 150});
 }
 
 /// A row without room has a start that may be read.

@@ -4,9 +4,9 @@
 
 #include <cstring>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
+#include "apps/weft/bytes.h"
 #include "apps/weft/child_process.h"
 #include "apps/weft/progress.h"
 #include "runtime/error.h"
@@ -31,19 +31,6 @@ State to_state(const std::string& bytes) {
     std::memcpy(state.positions.data(), bytes.data(), half);
     std::memcpy(state.velocities.data(), bytes.data() + half, half);
     return state;
-}
-
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
-}
-
-template <class T>
-std::vector<T> from_bytes(const std::string& bytes) {
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
 }
 
 void set_state(Model& model, const State& state) {

@@ -28,7 +28,7 @@ struct ErrorOptions {
     std::vector<int> sweep_substeps{1, 2, 4, 8, 16, 32, 64};
     std::vector<int> sweep_iterations{1, 2, 4, 8, 16, 32, 64};
     int max_work = 128;                     ///< substeps * iterations of a run
-    std::optional<int> reference_substeps;  ///< null: 8 times the most that are swept
+    std::optional<int> reference_substeps;  ///< null: see TrajectoryReference
 };
 
 /// Measures all curves. Throws UserError, RunError.

@@ -122,10 +122,15 @@ Json to_part(const ErrorStudy& study) {
 Json to_part(const TrajectoryStudy& study) {
     Json curves = Json::array();
     for (const TrajectoryCurve& curve : study.curves) curves.push_back(curve_json(curve));
-    return {{"study", kTrajectory},           {"scene", study.scene},
-            {"frames", study.frames},         {"vertices", study.vertices},
-            {"frame_time", study.frame_time}, {"reference_substeps", study.reference_substeps},
-            {"doubt", study.doubt},           {"curves", curves}};
+    return {{"study", kTrajectory},
+            {"scene", study.scene},
+            {"frames", study.frames},
+            {"vertices", study.vertices},
+            {"frame_time", study.frame_time},
+            {"reference_by", study.reference_by},
+            {"reference_substeps", study.reference_substeps},
+            {"doubt", study.doubt},
+            {"curves", curves}};
 }
 
 ErrorStudy join_error_parts(const std::vector<Json>& parts) {
@@ -143,15 +148,13 @@ ErrorStudy join_error_parts(const std::vector<Json>& parts) {
 }
 
 TrajectoryStudy join_trajectory_parts(const std::vector<Json>& parts) {
-    check_same(parts, {"study", "scene", "frames", "vertices", "frame_time", "reference_substeps"});
+    check_same(parts, {"study", "scene", "frames", "vertices", "frame_time", "reference_by",
+                       "reference_substeps"});
     const Json& first = parts.front();
-    TrajectoryStudy study{first.at("scene"),
-                          first.at("frames"),
-                          first.at("vertices"),
-                          first.at("frame_time"),
-                          first.at("reference_substeps"),
-                          first.at("doubt"),
-                          {}};
+    TrajectoryStudy study{first.at("scene"),        first.at("frames"),
+                          first.at("vertices"),     first.at("frame_time"),
+                          first.at("reference_by"), first.at("reference_substeps"),
+                          first.at("doubt"),        {}};
     for (const Json& part : parts) {
         for (const Json& curve : part.at("curves")) study.curves.push_back(trajectory_curve(curve));
     }

@@ -55,9 +55,9 @@ std::string to_csv(const TrajectoryStudy& study) {
 std::string to_text(const TrajectoryStudy& study) {
     std::string text = fmt::format(
         "{}: {} frames of {:g} ms, {} vertices\n"
-        "reference: {} substeps in double precision, {:.3g} mm from itself with half as many\n",
+        "reference: {} substeps by {}, {:.3g} mm from itself with half as many\n",
         study.scene, study.frames, 1e3 * study.frame_time, study.vertices, study.reference_substeps,
-        1e3 * study.doubt);
+        study.reference_by, 1e3 * study.doubt);
     text += front_table(study);
     for (const TrajectoryCurve& curve : study.curves) {
         for (const UnfinishedRun& run : curve.unfinished) {
@@ -95,7 +95,10 @@ nlohmann::ordered_json to_json(const TrajectoryStudy& study) {
     return {{"scene", study.scene},
             {"frames", study.frames},
             {"vertices", study.vertices},
-            {"reference", {{"substeps", study.reference_substeps}, {"doubt_m", study.doubt}}},
+            {"reference",
+             {{"by", study.reference_by},
+              {"substeps", study.reference_substeps},
+              {"doubt_m", study.doubt}}},
             {"curves", curves}};
 }
 

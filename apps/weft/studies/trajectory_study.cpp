@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/child_process.h"
 #include "apps/weft/progress.h"
+#include "apps/weft/studies/trajectory_reference.h"
+#include "apps/weft/studies/whole_run.h"
 #include "runtime/error.h"
-#include "simulation/reference/fine_run.h"
 
 namespace weft {
 
@@ -35,74 +35,6 @@ std::vector<Setting> settings(const ErrorOptions& options) {
     }
     std::ranges::stable_sort(list, {}, &Setting::work);
     return list;
-}
-
-RunOptions with(RunOptions run, Setting setting) {
-    run.substeps = std::to_string(setting.substeps);
-    run.iterations = std::to_string(setting.iterations);
-    return run;
-}
-
-/// xyz of all vertices in scene order at the end of each frame, one behind the other.
-using Trajectory = std::vector<float>;
-
-struct TimedRun {
-    Trajectory trajectory;
-    double time = 0.0;  ///< [s]
-};
-
-TimedRun run_scene(const RunOptions& run) {
-    Warnings warnings;
-    const Scene scene = read_scene(run.scene, run.overrides());
-    SimulationOptions settings = run.simulation();
-    settings.on_trouble = OnTrouble::kIgnore;  // what it comes to is what is measured
-    Simulation simulation(scene, settings, warnings);
-    TimedRun timed;
-    for (int frame = 0; frame < scene.frames; ++frame) {
-        timed.time += simulation.advance().measured_makespan;
-        const std::vector<float> positions = simulation.positions();
-        timed.trajectory.insert(timed.trajectory.end(), positions.begin(), positions.end());
-    }
-    return timed;
-}
-
-/// RMS distance of vertices over the last `frames` frames [m].
-double distance(const Trajectory& a, const Trajectory& b, std::size_t numbers) {
-    double sum = 0.0;
-    for (std::size_t k = a.size() - numbers; k < a.size(); ++k) {
-        const double off = static_cast<double>(a[k]) - static_cast<double>(b[k]);
-        sum += off * off;
-    }
-    return std::sqrt(3.0 * sum / static_cast<double>(numbers));
-}
-
-double distance(const Trajectory& a, const Trajectory& b) { return distance(a, b, a.size()); }
-
-Trajectory fine_run(Model& model, int substeps, bool quiet) {
-    FineRun run(model, substeps);
-    Progress progress(fmt::format("reference with {} substeps, frame", substeps),
-                      model.scene.frames, quiet);
-    Trajectory trajectory;
-    for (int frame = 0; frame < model.scene.frames; ++frame) {
-        run.advance();
-        const std::vector<float> positions = run.positions();
-        trajectory.insert(trajectory.end(), positions.begin(), positions.end());
-        progress.show(frame + 1);
-    }
-    return trajectory;
-}
-
-/// Far more than what is swept; and since it is to be checked by half as many, that is stable too.
-int reference_substeps(const ErrorOptions& options, const Model& model) {
-    const int finest = std::ranges::max(options.sweep_substeps);
-    const int stable = FineRun::stable_substeps(model);
-    const int least = std::max(2 * finest, stable);
-    const int substeps = options.reference_substeps.value_or(std::max(2 * stable, 8 * finest));
-    if (substeps >= least) return substeps;
-    throw UserError(fmt::format(
-        "--reference-substeps {}: expected {} or more: {}", substeps, least,
-        least > stable ? "twice the most of --sweep-substeps"
-                       : "the reference's steps are explicit, and with fewer they are not stable"));
 }
 
 TrajectoryPoint to_point(Setting setting, const TimedRun& timed, const Trajectory& reference,
@@ -153,7 +85,8 @@ TrajectoryCurve measure(const ErrorOptions& options, const RunOptions& run,
         }
         try {
             curve.points.push_back(
-                to_point(setting, run_scene(with(run, setting)), reference, frames));
+                to_point(setting, run_scene(with_steps(run, setting.substeps, setting.iterations)),
+                         reference, frames));
         } catch (const RunError& error) {
             leave(error.what());
         }
@@ -212,13 +145,11 @@ TrajectoryStudy study_trajectories(const ErrorOptions& options) {
     study.scene = scene.name;
     study.frames = scene.frames;
     study.frame_time = scene.dt;
-    Warnings warnings;
-    Model model(scene, warnings);
-    study.vertices = model.vertex_count();
-    study.reference_substeps = reference_substeps(options, model);
-    const Trajectory reference = fine_run(model, study.reference_substeps, options.run.quiet);
-    study.doubt =
-        distance(reference, fine_run(model, study.reference_substeps / 2, options.run.quiet));
+    const TrajectoryReference reference = run_reference(options);
+    study.vertices = reference.vertices;
+    study.reference_by = reference.by;
+    study.reference_substeps = reference.substeps;
+    study.doubt = reference.doubt;
 
     for (const std::string& solver : options.solvers) {
         for (const std::string& devices : options.devices) {
@@ -228,9 +159,11 @@ TrajectoryStudy study_trajectories(const ErrorOptions& options) {
                 run.device = devices;
                 run.plan = plan;
                 TrajectoryCurve curve{solver, devices, plan, {}, {}};
-                const std::string answer = in_child_process(
-                    fmt::format("{} on {}", solver, devices),
-                    [&] { return to_json(measure(options, run, reference, scene.frames)).dump(); });
+                const std::string answer =
+                    in_child_process(fmt::format("{} on {}", solver, devices), [&] {
+                        return to_json(measure(options, run, reference.trajectory, scene.frames))
+                            .dump();
+                    });
                 add_measured(curve, nlohmann::json::parse(answer));
                 study.curves.push_back(std::move(curve));
             }

@@ -107,7 +107,7 @@ public:
     /// One iteration of XPBD without any elements.
     void project(int iteration, float friction = 0.0f) {
         const Launch share = launch(kernels::share_masses, Segments{}, positions, table_.counts(),
-                                    snapshots_, kVertices, kIteration, 0);
+                                    least_, snapshots_, kVertices, kIteration, 0);
         run_on_host(share, share.kernel->scalar, 0, kVertices, 0, iteration);
         const Launch push =
             launch(kernels::project_contacts, Segments{}, positions, snapshots_, table_.rows(),
@@ -193,6 +193,7 @@ private:
     Buffer<float>& multipliers_;
     Buffer<float4>& rubs_;
     Buffer<float4> snapshots_;
+    Buffer<float> least_{"least", kVertices};  ///< 0: all may have contacts
 };
 
 TEST(ContactRows, EachContactHasItsEnergyOnce) {

@@ -161,6 +161,12 @@ std::vector<ContactMesh> contact_meshes() {
     all.push_back(soup(1, 150, 120, false));
     all.push_back(soup(2, 150, 120, true));
     all.push_back(flat_sheet(12));
+    // Folded twice, so large that patches need no look within a layer.
+    all.push_back(sheets("large folded", 1, 24, 72, 0.3f, 0.1f, [&](int, int column, int row) {
+        const int layer = row / 24;
+        const int along = layer % 2 == 0 ? row % 24 : 23 - row % 24;
+        return shaken({column + 0.0, 0.2 * layer, along + 0.0}, 0.02, random);
+    }));
     all.push_back(stack(3, 9, 0.2f, 0.3f, 0.1f));
     all.back().name = "not with itself";
     all.back().self = false;

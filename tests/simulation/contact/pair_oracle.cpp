@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "simulation/families/convert.h"
 
@@ -10,8 +11,8 @@ namespace weft::test {
 
 namespace {
 
-/// Of lengths and of angles: what single precision cannot tell apart.
-constexpr double kRounding = 2e-5;
+/// Of lengths and of angles: what single precision cannot tell apart where coordinates reach 24.
+constexpr double kRounding = 5e-5;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -26,6 +27,17 @@ std::vector<int> patches_of(const std::vector<int>& begin) {
 template <class A, class B>
 bool share(const A& a, const B& b) {
     return std::ranges::any_of(a, [&](int v) { return std::ranges::find(b, v) != b.end(); });
+}
+
+/// Where groups begin: 8 patches of a strip each.
+std::vector<int> groups_of_patches(const std::vector<int>& strip_patches) {
+    std::vector<int> begin{0};
+    for (std::size_t s = 0; s + 1 < strip_patches.size(); ++s) {
+        for (int first = strip_patches[s]; first < strip_patches[s + 1]; first += 8) {
+            begin.push_back(std::min(first + 8, strip_patches[s + 1]));
+        }
+    }
+    return begin;
 }
 
 /// Of two answers to one question.
@@ -44,6 +56,9 @@ PairOracle::PairOracle(const ContactMesh& mesh, const Surface& surface,
       patch_of_triangle_(patches_of(surface.patch_triangles)),
       patch_of_edge_(patches_of(surface.patch_edges)) {
     for (int p = 0; p < surface.patch_count(); ++p) patches_.push_back(patch(p));
+    group_begin_ = groups_of_patches(surface.strip_patches);
+    groups_ = find_groups(surface, group_begin_);
+    for (int g = 0; g < groups_.beside.count(); ++g) group_patches_.push_back(group(g));
 }
 
 template <class A, class B>
@@ -98,32 +113,60 @@ PairOracle::Patch PairOracle::patch(int p) const {
     return patch;
 }
 
-Verdict PairOracle::near(int p, int q) const {
-    const bool same_body = surface_.patch_body[index(p)] == surface_.patch_body[index(q)];
-    if (!settings_.self && same_body) return Verdict::kNone;
-    if (surface_.patch_held[index(p)] != 0 && surface_.patch_held[index(q)] != 0) {
-        return Verdict::kNone;
+/// Its patches have to be near each other's way by 15 degrees.
+PairOracle::Patch PairOracle::group(int g) const {
+    Patch group{true, false, {}};
+    const auto own = std::span(patches_).subspan(
+        index(group_begin_[index(g)]), index(group_begin_[index(g + 1)] - group_begin_[index(g)]));
+    for (const Patch& p : own) group.mean = group.mean + p.mean;
+    group.mean = normalized(group.mean);
+    for (const Patch& p : own) {
+        const double spare = dot(p.mean, group.mean) - 0.9659;
+        group.flat = group.flat && p.flat && spare > 0.0;
+        group.near_limit = group.near_limit || p.near_limit || std::abs(spare) < kRounding;
     }
-    const auto list = surface_.beside[p];
-    const auto found = std::ranges::find(list, q);
-    if (found == list.end()) return Verdict::kPair;
-    const auto entry = surface_.beside.begin[index(p)] + (found - list.begin());
+    return group;
+}
+
+Verdict PairOracle::is_sheet(const std::array<Patch, 3>& parts, double cosine) {
     bool flat = true;
     bool near_limit = false;
-    const std::array<int, 3> all{p, q, surface_.between[static_cast<std::size_t>(entry)]};
-    for (const int one : all) {
-        const Patch& a = patches_[index(one)];
+    for (const Patch& a : parts) {
         near_limit = near_limit || a.near_limit;
         flat = flat && a.flat;
-        for (const int other : all) {
-            const double spare =
-                one == other ? 1.0 : dot(a.mean, patches_[index(other)].mean) - 0.5;
+        for (const Patch& b : parts) {
+            const double spare = &a == &b ? 1.0 : dot(a.mean, b.mean) - cosine;
             near_limit = near_limit || std::abs(spare) < kRounding;
             flat = flat && spare > 0.0;
         }
     }
     if (near_limit) return Verdict::kEither;
     return flat ? Verdict::kNone : Verdict::kPair;
+}
+
+Verdict PairOracle::near(int p, int q) const {
+    const bool same_body = surface_.patch_body[index(p)] == surface_.patch_body[index(q)];
+    if (!settings_.self && same_body) return Verdict::kNone;
+    if (surface_.patch_held[index(p)] != 0 && surface_.patch_held[index(q)] != 0) {
+        return Verdict::kNone;
+    }
+    const auto by_lists = [](const Lists& beside, const std::vector<int>& between, int a, int b,
+                             double cosine, auto part) {
+        const auto list = beside[a];
+        const auto found = std::ranges::find(list, b);
+        if (found == list.end()) return Verdict::kPair;
+        const int via =
+            between[index(beside.begin[index(a)]) + static_cast<std::size_t>(found - list.begin())];
+        return is_sheet({part(a), part(b), part(via)}, cosine);
+    };
+    const Verdict patches = by_lists(surface_.beside, surface_.between, p, q, 0.5,
+                                     [&](int n) { return patches_[index(n)]; });
+    const Verdict groups = by_lists(groups_.beside, groups_.between, groups_.of_patch[index(p)],
+                                    groups_.of_patch[index(q)], 0.8660,
+                                    [&](int n) { return group_patches_[index(n)]; });
+    if (patches == Verdict::kNone || groups == Verdict::kNone) return Verdict::kNone;
+    return patches == Verdict::kEither || groups == Verdict::kEither ? Verdict::kEither
+                                                                     : Verdict::kPair;
 }
 
 /// In single precision: so it is defined.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "simulation/contact/pairs.h"
+#include "simulation/contact/patch_groups.h"
 #include "tests/simulation/contact/contact_meshes.h"
 
 namespace weft::test {
@@ -35,6 +37,9 @@ private:
     Distance to_triangle(int vertex, const std::array<int, 3>& t) const;
     Distance between(int edge, int other) const;
     Patch patch(int p) const;
+    Patch group(int g) const;
+    /// Whether all of these are flat, and face one way by that cosine.
+    static Verdict is_sheet(const std::array<Patch, 3>& parts, double cosine);
     /// Whether these patches are looked at together.
     Verdict near(int p, int q) const;
     template <class A, class B>
@@ -48,7 +53,9 @@ private:
     const Surface& surface_;
     PairSettings settings_;
     std::vector<int> patch_of_vertex_, patch_of_triangle_, patch_of_edge_;
-    std::vector<Patch> patches_;
+    std::vector<Patch> patches_, group_patches_;
+    std::vector<int> group_begin_;
+    PatchGroups groups_;
 };
 
 }  // namespace weft::test

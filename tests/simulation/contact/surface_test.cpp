@@ -1,4 +1,5 @@
 #include "simulation/contact/surface.h"
+#include "simulation/contact/patch_groups.h"
 
 #include <gtest/gtest.h>
 
@@ -155,6 +156,68 @@ TEST_P(SurfaceOf, PatchesThatHangTogetherAreListed) {
             EXPECT_EQ(s_.between[static_cast<std::size_t>(
                           s_.beside.begin[static_cast<std::size_t>(q)] + (same - back.begin()))],
                       via);
+        }
+    }
+}
+
+/// Groups of three patches each, and what is said of them.
+TEST_P(SurfaceOf, GroupsThatHangTogetherAreOnePieceEachWithoutASlit) {
+    std::vector<int> begin{0};
+    while (begin.back() < s_.patch_count()) {
+        begin.push_back(std::min(begin.back() + 3, s_.patch_count()));
+    }
+    const PatchGroups groups = find_groups(s_, begin);
+    const auto faces = [&](int g) {
+        std::vector<std::array<int, 3>> all;
+        for (int p = begin[static_cast<std::size_t>(g)]; p < begin[static_cast<std::size_t>(g) + 1];
+             ++p) {
+            EXPECT_EQ(groups.of_patch[static_cast<std::size_t>(p)], g);
+            for (const int t : s_.faces[p]) {
+                all.push_back(s_.triangles[static_cast<std::size_t>(t)]);
+            }
+        }
+        return all;
+    };
+    const auto is_at_border = [&](int g) {
+        return std::ranges::any_of(faces(g), [&](const auto& x) {
+            const auto t = std::ranges::find(s_.triangles, x) - s_.triangles.begin();
+            return std::ranges::min(s_.beyond[static_cast<std::size_t>(t)]) < 0;
+        });
+    };
+    const auto vertices = [&](int g) {
+        std::set<int> all;
+        for (const auto& x : faces(g)) all.insert(x.begin(), x.end());
+        return all;
+    };
+    const auto touch = [&](int g, int h) {
+        const std::set<int> other = vertices(h);
+        return std::ranges::any_of(vertices(g), [&](int v) { return other.contains(v); });
+    };
+    const auto is_one_piece = [&](int g) {
+        const auto all = faces(g);
+        std::set<int> reached(all.front().begin(), all.front().end());
+        for (std::size_t round = 0; round < all.size(); ++round) {
+            for (const auto& x : all) {
+                if (std::ranges::any_of(x, [&](int v) { return reached.contains(v); })) {
+                    reached.insert(x.begin(), x.end());
+                }
+            }
+        }
+        return reached == vertices(g);
+    };
+    ASSERT_EQ(groups.beside.count(), static_cast<int>(begin.size()) - 1);
+    for (int g = 0; g < groups.beside.count(); ++g) {
+        const auto list = groups.beside[g];
+        EXPECT_TRUE(std::ranges::is_sorted(list));
+        EXPECT_TRUE(list.empty() || is_one_piece(g)) << g;
+        EXPECT_EQ(std::ranges::find(list, g) != list.end(), is_one_piece(g) && !is_at_border(g));
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            const int via = groups.between[static_cast<std::size_t>(
+                                               groups.beside.begin[static_cast<std::size_t>(g)]) +
+                                           k];
+            EXPECT_TRUE(!is_at_border(g) || !is_at_border(list[k])) << g << " and " << list[k];
+            EXPECT_TRUE(touch(g, via) && touch(via, list[k]));
+            EXPECT_TRUE(via == g || via == list[k] || !is_at_border(via));
         }
     }
 }
