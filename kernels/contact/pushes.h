@@ -26,6 +26,19 @@ WEFT_INLINE real weight_of_side(real4 w) {
     return (larger(w.x, zero) + larger(w.y, zero)) + (larger(w.z, zero) + larger(w.w, zero));
 }
 
+/// Where a contact touches one side: its vertices have weights of this sign.
+/// positions  [vertices] xyz [m]
+/// total      what they weigh together, without the sign
+WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, real total,
+                                float sign, whole c0, whole c1, whole c2, whole c3) {
+    const real zero = splat(0.0f);
+    const real unit = splat(sign) / total;
+    const real3 x0 = scale(xyz(gather4(positions, address(c0))), larger(w.x * unit, zero));
+    const real3 x1 = add_scaled(x0, xyz(gather4(positions, address(c1))), larger(w.y * unit, zero));
+    const real3 x2 = add_scaled(x1, xyz(gather4(positions, address(c2))), larger(w.z * unit, zero));
+    return add_scaled(x2, xyz(gather4(positions, address(c3))), larger(w.w * unit, zero));
+}
+
 /// For each column of a free body's vertices the contacts that they have with others.
 /// positions    [vertices] xyz [m], where contacts are seen
 /// targets      [vertices] xyz: x~ [m]
@@ -41,6 +54,7 @@ WEFT_INLINE real weight_of_side(real4 w) {
 ///              leads [m]
 /// earlier_slips  [entries] as the slips of gather_contacts
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
+/// points, other_points  [entries] written: where this side is touched, and the other one [m]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
 WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
@@ -53,6 +67,7 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
             WEFT_GLOBAL const float4* earlier_slips, WEFT_GLOBAL const int* push_rows,
             WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes,
             WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
+            WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
             WEFT_GLOBAL float4* standing, int column_count, int body_count, float friction,
             int instance) {
     const real zero = splat(0.0f);
@@ -84,13 +99,14 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
             const integer entry =
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * n) : start);
             const whole c0 = gather_whole(corner0, entry);
+            const whole c1 = gather_whole(corner1, entry);
+            const whole c2 = gather_whole(corner2, entry);
             const whole c3 = gather_whole(corner3, entry);
             const real4 w = gather4(weights, entry);
             // The first vertex and the last one are never on one side.
             const whole one_side = gather_whole(bodies, address(c0));
             const whole other_side = gather_whole(bodies, address(c3));
-            const whole first = first_of_side(w, c0, gather_whole(corner1, entry),
-                                              gather_whole(corner2, entry), c3);
+            const whole first = first_of_side(w, c0, c1, c2, c3);
             const mask counts_here = both(both(on, one_side != other_side), first == vertex);
             if (any_item(counts_here)) {
                 contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3,
@@ -104,6 +120,9 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
                 const mask is_free = opposite < splat_whole(body_count);
                 const whole outside = both(is_free, leader == own_leader) ? none : splat_whole(1);
                 const real own = weight_of_side(w);
+                // The weights of both sides are the same.
+                const real3 point = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
+                const real3 other_point = point_of_side(positions, w, own, -1.0f, c0, c1, c2, c3);
                 const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
                 const mask fits = both(counts_here, found < room);
                 const integer place = address(push_start + found * WEFT_CONTACT_STRIDE);
@@ -111,6 +130,8 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
                 scatter4_where(fits, forces, place, force);
+                scatter4_where(fits, points, place, with_w(point, zero));
+                scatter4_where(fits, other_points, place, with_w(other_point, zero));
                 found = counts_here ? found + splat_whole(1) : found;
             }
         }

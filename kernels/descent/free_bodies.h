@@ -78,25 +78,30 @@ WEFT_KERNEL(add_runs, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* fir
     store4(shifts, i, with_w(sum, zero));
 }
 
-/// Moves the vertices of free bodies, and their velocities by as much per substep: to these
-/// nothing is lost by rounding, whereas a shift may be too small for a coordinate.
+/// Moves a vertex, and its velocity by as much per substep: to that nothing is lost by rounding,
+/// whereas a way may be too small for a coordinate. Parameters as in shift_bodies.
+WEFT_INLINE void shift_vertex(WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
+                              WEFT_GLOBAL float4* velocities, item i, real3 way, float inverse_h) {
+    const real4 x = load4(positions, i);
+    const real4 deviation = load4(deviations, i);
+    const real4 v = load4(velocities, i);
+    store4(positions, i, with_w(add(xyz(x), way), x.w));
+    store4(deviations, i, with_w(add(xyz(deviation), way), deviation.w));
+    store4(velocities, i, with_w(add_scaled(xyz(v), way, v.w * splat(inverse_h)), v.w));
+}
+
+/// Moves the vertices of free bodies.
 /// positions   [vertices] xyz [m]
 /// deviations  [vertices] xyz: x - x~ [m]
 /// velocities  [vertices] xyz [m/s], w = what damping leaves per substep
 /// shifts      [runs + 1] xyz [m]; the last one is zero
-/// runs        [vertices] the run of each vertex, or another number of what is shifted as one; the
-///             last one for those that something holds
+/// runs        [vertices] the run of each vertex; the last one for those that something holds
 /// inverse_h   1 / h [1/s], h the substep
 WEFT_KERNEL(shift_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* shifts,
             WEFT_GLOBAL const int* runs, float inverse_h) {
     const real3 shift = xyz(gather4(shifts, load_index(runs, i)));
-    const real4 x = load4(positions, i);
-    const real4 deviation = load4(deviations, i);
-    const real4 v = load4(velocities, i);
-    store4(positions, i, with_w(add(xyz(x), shift), x.w));
-    store4(deviations, i, with_w(add(xyz(deviation), shift), deviation.w));
-    store4(velocities, i, with_w(add_scaled(xyz(v), shift, v.w * splat(inverse_h)), v.w));
+    shift_vertex(positions, deviations, velocities, i, shift, inverse_h);
 }
 
 /// Adds what obstacles pushed to the velocities.

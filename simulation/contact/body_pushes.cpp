@@ -22,6 +22,8 @@ BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, 
       sides_(table_.add_column<float4>("sides")),
       slips_(table_.add_column<float4>("slips")),
       forces_(table_.add_column<float4>("forces")),
+      points_(table_.add_column<float4>("points")),
+      other_points_(table_.add_column<float4>("other_points")),
       standing_("touching.standing", static_cast<std::size_t>(columns.count)) {}
 
 Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
@@ -31,8 +33,8 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   contacts_.table.counts(), contacts_.corner0, contacts_.corner1, contacts_.corner2,
                   contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
                   contacts_.slips, table_.rows(), table_.counts(), table_.needs(), codes_, sides_,
-                  slips_, forces_, standing_, columns_.count, groups.body_count(), friction_,
-                  kInstance);
+                  slips_, forces_, points_, other_points_, standing_, columns_.count,
+                  groups.body_count(), friction_, kInstance);
 }
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
@@ -44,16 +46,18 @@ void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, 
         .updates(table_.needs(), column, end)
         .updates(standing_, column, end)
         .updates(codes_, table_.entries());
-    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_}) {
+    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_, &points_, &other_points_}) {
         task.updates(*entries, table_.entries());
     }
 }
 
-Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& shifts,
-                       int has_moved, Buffer<float4>& partials) {
+Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
+                       Buffer<float4>& motions, int has_moved, Buffer<float4>& partials) {
+    const int body_count = static_cast<int>(masses.count());
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
-                  shifts, table_.rows(), table_.counts(), codes_, sides_, slips_, forces_, partials,
-                  friction_, creep_, h2_, has_moved, columns_.count);
+                  moments, motions, table_.rows(), table_.counts(), codes_, sides_, slips_, forces_,
+                  points_, other_points_, partials, friction_, creep_, h2_, has_moved,
+                  columns_.count, body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {
@@ -62,7 +66,7 @@ void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {
     task.reads(table_.counts(), column, end)
         .reads(standing_, column, end)
         .reads(codes_, table_.entries());
-    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_}) {
+    for (Buffer<float4>* entries : {&sides_, &slips_, &forces_, &points_, &other_points_}) {
         task.reads(*entries, table_.entries());
     }
 }

@@ -24,10 +24,10 @@ public:
     void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
 
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
-    /// column_bodies, masses, shifts, has_moved, partials: as the kernel's
-    Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& shifts,
-               int has_moved, Buffer<float4>& partials);
-    /// What that needs of a region, besides the shifts.
+    /// column_bodies, masses, moments, motions, has_moved, partials: as the kernel's
+    Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
+               Buffer<float4>& motions, int has_moved, Buffer<float4>& partials);
+    /// What that needs of a region, besides the moments and the motions.
     void add_sum_accesses(Step::Adding& task, const Region& region);
 
     RowTable& table() { return table_; }
@@ -38,7 +38,7 @@ private:
     float friction_, creep_, h2_;
     RowTable table_;
     Buffer<int>& codes_;
-    Buffer<float4>&sides_, &slips_, &forces_;
+    Buffer<float4>&sides_, &slips_, &forces_, &points_, &other_points_;
     Buffer<float4> standing_;  ///< [columns]
 };
 

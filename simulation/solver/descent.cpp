@@ -83,7 +83,7 @@ std::vector<Launch> DescentSubstep::end() {
 /// Obstacles and contacts have the last word: a shift may lead into them.
 void DescentSubstep::add_shift(std::vector<Launch>& launches) {
     if (touching_)
-        launches.push_back(touching_->shift(model_, targets_));
+        launches.push_back(touching_->move(model_, targets_));
     else
         for (Launch& shift : free_bodies_->shift(model_, targets_)) launches.push_back(shift);
     if (!pushed_) return;
@@ -157,7 +157,7 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
     if (contact_) contact_->add_count_accesses(task, first, last);
     if (!free_bodies_) return task.reads(*model_.positions, first, last);
     if (!touching_) free_bodies_->add_shift_accesses(task);
-    if (touching_) touching_->add_shift_accesses(task);
+    if (touching_) touching_->add_motion_accesses(task);
     if (contact_) contact_->add_truncation_accesses(task, first, last);
     return task.updates(*model_.positions, first, last);
 }

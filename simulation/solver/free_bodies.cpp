@@ -154,13 +154,8 @@ void FreeBodies::add_sum_accesses(Step::Adding& task, int first_strip, int end_s
 std::vector<Launch> FreeBodies::shift(Model& model, Buffer<float4>& deviations) {
     return {
         launch(kernels::add_runs, runs_by_strip_, lags_, first_run_, counts_, shifts_, most_runs_),
-        shift_by(shifts_, run_of_, model, deviations)};
-}
-
-Launch FreeBodies::shift_by(Buffer<float4>& shifts, Buffer<int>& numbers, Model& model,
-                            Buffer<float4>& deviations) {
-    return launch(kernels::shift_bodies, vertices_, *model.positions, deviations, *model.velocities,
-                  shifts, numbers, static_cast<float>(1.0 / model.h));
+        launch(kernels::shift_bodies, vertices_, *model.positions, deviations, *model.velocities,
+               shifts_, run_of_, static_cast<float>(1.0 / model.h))};
 }
 
 void FreeBodies::add_shift_accesses(Step::Adding& task) { task.reads(lags_, 0, run_count()); }

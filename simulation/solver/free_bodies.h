@@ -42,9 +42,6 @@ public:
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
     Launch add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts, int lag_count);
-    /// numbers: [vertices] of each one's shift
-    Launch shift_by(Buffer<float4>& shifts, Buffer<int>& numbers, Model& model,
-                    Buffer<float4>& deviations);
 
 private:
     FreeBodies(const Model& model, const std::vector<int>& bodies, std::vector<Run> runs);

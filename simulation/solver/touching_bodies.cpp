@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/contact/bodies.h"
+#include "kernels/contact/groups.h"
 
 namespace weft {
 
@@ -50,13 +50,15 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
       first_run_("touching.first_run", at(bodies.body_count())),
       counts_("touching.counts", first_run_.count()),
       masses_("touching.masses", first_run_.count()),
-      rests_("touching.rests", 3 * first_run_.count()),
-      group_shifts_("touching.group_shifts", first_run_.count()),
-      shifts_("touching.shifts", first_run_.count() + 1),
+      rests_("touching.rests", 7 * first_run_.count()),
+      group_motions_("touching.group_motions", 3 * first_run_.count()),
+      motions_("touching.motions", 2 * (first_run_.count() + 1)),
+      moments_(bodies, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
     collect_ = {"pushes", first_kind, {}};
+    weigh_ = {"bodies", first_kind + 1, {moments_.weigh(all())}};
     steps_ = {"bodies", first_kind + 1, solve(0)};
     steps_again_ = {"bodies", first_kind + 1, solve(1)};
 }
@@ -79,30 +81,33 @@ void TouchingBodies::number_bodies(const Model& model) {
 }
 
 std::vector<Launch> TouchingBodies::solve(int has_moved) {
-    const Segments all{&begin_, 0, 1, model_.strips.count()};
-    return {launch(kernels::solve_bodies, all, lags_, first_run_, counts_, masses_, shifts_, rests_,
-                   has_moved, bodies_.most_runs(), lag_count_, body_count()),
-            launch(kernels::solve_groups, all, rests_, groups_.firsts, groups_.counts,
-                   groups_.members, group_shifts_, body_count(), kInstance),
-            launch(kernels::add_groups, all, shifts_, rests_, group_shifts_, groups_.leaders,
-                   body_count(), kInstance)};
+    return {
+        launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
+               moments_.moments(), motions_, rests_, has_moved, bodies_.most_runs(), lag_count_,
+               body_count()),
+        launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
+               groups_.counts, groups_.members, group_motions_, body_count(), kInstance),
+        launch(kernels::add_groups, all(), motions_, rests_, moments_.moments(), group_motions_,
+               groups_.leaders, body_count(), kInstance)};
 }
 
 std::vector<const TaskBody*> TouchingBodies::bodies() const {
-    return {&collect_, &steps_, &sums_again_, &steps_again_};
+    return {&collect_, &weigh_, &steps_, &sums_again_, &steps_again_};
 }
 
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         int kind) {
     targets_ = &targets;
-    collect_.launches = {pushes_.collect(positions, targets, body_of_, groups_)};
+    collect_.launches = moments_.sum(positions, targets);
+    collect_.launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
     sums_again_ = {"momentum", kind, sum_round(1)};
     return sum_round(0);
 }
 
 std::vector<Launch> TouchingBodies::sum_round(int has_moved) {
-    return {pushes_.add(column_bodies_, masses_, shifts_, has_moved, partials_),
-            bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
+    return {
+        pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, has_moved, partials_),
+        bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
@@ -114,6 +119,8 @@ void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
         }
     };
     for_each([&](const Region& region) { add_collection(step, region, positions, iteration); });
+    auto weighing = step.add(weigh_, iteration, {0, 1});
+    moments_.add_weigh_accesses(weighing);
     for (int round = 0; round < kRounds; ++round) {
         const TaskBody& sums = round == 0 ? body : sums_again_;
         for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
@@ -129,12 +136,13 @@ void TouchingBodies::add_collection(Step& step, const Region& region, Buffer<flo
     auto task = step.add(collect_, iteration, region.strips(), region.id);
     task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
     pushes_.add_collect_accesses(task, region, first, last);
+    moments_.add_sum_accesses(task, region);
 }
 
 void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
                              int iteration) {
     auto task = step.add(body, iteration, region.strips(), region.id);
-    task.reads(shifts_, 0, body_count() + 1);
+    add_motion_accesses(task);
     pushes_.add_sum_accesses(task, region);
     const auto [first_run, end_run] = bodies_.runs_in(region.begin, region.end);
     for (int part = 0; part < kParts; ++part) {
@@ -148,17 +156,22 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
         const int first = part * lag_count_;
         task.reads(lags_, first, first + bodies_.run_count());
     }
-    task.updates(shifts_, 0, body_count())
-        .updates(rests_, 0, 3 * body_count())
-        .updates(group_shifts_, 0, body_count());
+    moments_.add_reads(task);
+    for (Buffer<float4>* written : {&motions_, &rests_, &group_motions_}) {
+        task.updates(*written, 0, static_cast<int>(written->count()));
+    }
 }
 
-Launch TouchingBodies::shift(Model& model, Buffer<float4>& deviations) {
-    return bodies_.shift_by(shifts_, body_of_, model, deviations);
+Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
+    return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
+                  *model.velocities, motions_, moments_.moments(), body_of_,
+                  static_cast<float>(1.0 / model.h), body_count());
 }
 
-void TouchingBodies::add_shift_accesses(Step::Adding& task) {
-    task.reads(shifts_, 0, body_count());
+/// What tells where bodies have got to.
+void TouchingBodies::add_motion_accesses(Step::Adding& task) {
+    moments_.add_reads(task);
+    task.reads(motions_, 0, static_cast<int>(motions_.count()));
 }
 
 }  // namespace weft

@@ -4,13 +4,14 @@
 
 #include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
+#include "simulation/solver/body_moments.h"
 #include "simulation/solver/free_bodies.h"
 
 namespace weft {
 
 /// Free bodies in scenes with contact: they move as wholes as far as their contacts let them
-/// (kernels/contact/bodies.h). What pushes them is collected; then there are sums as FreeBodies',
-/// and a task of one device that makes steps of them, in turns.
+/// (kernels/contact/bodies.h). Their moments are added up and what pushes them is collected; then
+/// there are sums as FreeBodies', and a task of one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
     /// first_kind: of the tasks. All others must outlive this.
@@ -22,9 +23,10 @@ public:
     /// All rounds: sums, each followed by steps. body: with what sum() gave
     void add_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions,
                     Buffer<float4>& positions, int iteration);
-    // As FreeBodies'.
-    Launch shift(Model& model, Buffer<float4>& deviations);
-    void add_shift_accesses(Step::Adding& task);
+    /// Moves the vertices of a region's strips then.
+    Launch move(Model& model, Buffer<float4>& deviations);
+    /// Where they have got to is what that reads, as do the sums.
+    void add_motion_accesses(Step::Adding& task);
 
     /// What there is besides the sums of the first round.
     std::vector<const TaskBody*> bodies() const;
@@ -37,6 +39,7 @@ private:
     void add_sum(Step& step, const TaskBody& body, const Region& region, int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);
+    Segments all() const { return {&begin_, 0, 1, model_.strips.count()}; }
     std::vector<Launch> solve(int has_moved);
     int body_count() const { return groups_.body_count(); }
 
@@ -46,19 +49,20 @@ private:
     BodyGroups& groups_;
     int lag_count_;
     // See the kernels.
-    Buffer<float4> partials_;      ///< [parts * columns]
-    Buffer<float4> lags_;          ///< [parts * lag_count]
-    Buffer<int> body_of_;          ///< [vertices]
-    Buffer<int> column_bodies_;    ///< [columns]
-    Buffer<int> first_run_;        ///< [bodies]
-    Buffer<float> counts_;         ///< [bodies]
-    Buffer<float> masses_;         ///< [bodies]
-    Buffer<float4> rests_;         ///< [3 * bodies]
-    Buffer<float4> group_shifts_;  ///< [bodies]
-    Buffer<float4> shifts_;        ///< [bodies + 1]
-    Buffer<int> begin_;            ///< [strips + 1] all bodies are items of strip 0
+    Buffer<float4> partials_;       ///< [parts * columns]
+    Buffer<float4> lags_;           ///< [parts * lag_count]
+    Buffer<int> body_of_;           ///< [vertices]
+    Buffer<int> column_bodies_;     ///< [columns]
+    Buffer<int> first_run_;         ///< [bodies]
+    Buffer<float> counts_;          ///< [bodies]
+    Buffer<float> masses_;          ///< [bodies]
+    Buffer<float4> rests_;          ///< [7 * bodies]
+    Buffer<float4> group_motions_;  ///< [3 * bodies]
+    Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
+    BodyMoments moments_;
+    Buffer<int> begin_;  ///< [strips + 1] all bodies are items of strip 0
     Buffer<float4>* targets_ = nullptr;
-    TaskBody collect_, steps_;
+    TaskBody collect_, weigh_, steps_;
     TaskBody sums_again_, steps_again_;  ///< of the rounds behind the first one
 };
 

@@ -14,45 +14,67 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
+/// One body of one run, on which solve_bodies is run.
+struct OneBody {
+    Buffer<float4> lags{"lags", 2 * WEFT_BODY_PARTS}, rests{"rests", 7}, motions{"motions", 4},
+        moments{"moments", 2 * WEFT_MOMENT_PARTS};
+    Buffer<int> first{"first_run", 1};
+    Buffer<float> counts{"counts", 1}, masses{"masses", 1};
+
+    OneBody() { counts[0] = masses[0] = 1.0f; }
+
+    /// What each part of the sum is; there are two runs, of which the second one is nobody's.
+    float4& part(std::size_t number) { return lags[2 * number]; }
+    void solve(int has_moved) {
+        const Launch launched = launch(kernels::solve_bodies, Segments{}, lags, first, counts,
+                                       masses, moments, motions, rests, has_moved, 1, 2, 1);
+        run_on_host(launched, launched.kernel->scalar, 0, 1);
+    }
+};
+
 /// A substep that ended badly is done again from its start, but nobody takes back how far bodies
 /// went in its rounds.
 TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
-    Buffer<float4> shifts("shifts", 2);
-    shifts[0] = {kNone, kNone, kNone, kNone};
-    Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 3);
-    lags[0] = {0.5f, 0.0f, 0.0f, 0.0f};
-    Buffer<int> first("first_run", 1);
-    Buffer<float> counts("counts", 1), masses("masses", 1);
-    counts[0] = masses[0] = 1.0f;
-    const auto solve = [&](int has_moved) {
-        const Launch launched = launch(kernels::solve_bodies, Segments{}, lags, first, counts,
-                                       masses, shifts, rests, has_moved, 1, 2, 1);
-        run_on_host(launched, launched.kernel->scalar, 0, 1);
-    };
-    solve(0);
-    EXPECT_EQ(shifts[0].x, 0.5f);
-    solve(1);
-    EXPECT_EQ(shifts[0].x, 1.0f);
+    OneBody body;
+    for (float4& motion : body.motions.span()) motion = {kNone, kNone, kNone, kNone};
+    body.part(10) = {0.5f, 0.0f, 0.0f, 0.0f};
+    body.solve(0);
+    EXPECT_EQ(body.motions[0].x, 0.5f);
+    body.solve(1);
+    EXPECT_EQ(body.motions[0].x, 1.0f);
 }
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
-    Buffer<float4> standing("standing", 1), shifts("shifts", 2);
+    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12);
     standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
     Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
     Buffer<float> masses("masses", 1);
     masses[0] = 1.0f;
     Buffer<float4> entries("entries", 1), partials("partials", WEFT_BODY_PARTS);
     const auto lag_of_round = [&](int has_moved) {
-        const Launch launched = launch(kernels::add_pushed_lags, Segments{}, standing, bodies,
-                                       masses, shifts, rows, counts, codes, entries, entries,
-                                       entries, partials, 0.0f, 1.0f, 1e-4f, has_moved, 1);
+        const Launch launched =
+            launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
+                   rows, counts, codes, entries, entries, entries, entries, entries, partials, 0.0f,
+                   1.0f, 1e-4f, has_moved, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
-        return partials[0].x;
+        return partials[10].x;
     };
-    shifts[0] = {kNone, kNone, kNone, kNone};
+    for (float4& motion : motions.span()) motion = {kNone, kNone, kNone, kNone};
     EXPECT_EQ(lag_of_round(0), 0.25f);
-    shifts[0] = {0.125f, 0.0f, 0.0f, 0.0f};
+    for (float4& motion : motions.span()) motion = {0.125f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(lag_of_round(1), 0.125f);
+}
+
+/// Its elements know best, and the bits stay those of a scene without contacts.
+TEST(BodiesAsWholes, ABodyThatTouchesNothingIsNotTurned) {
+    OneBody body;
+    body.part(10) = {0.5f, 0.25f, -0.125f, 0.0f};
+    body.moments[0].w = body.moments[2].z = body.moments[4].w = 0.01f;
+    body.moments[6].y = 1e-4f;
+    body.solve(0);
+    EXPECT_EQ(body.motions[0].y, 0.25f);
+    EXPECT_EQ(body.motions[2].x, 0.0f);
+    EXPECT_EQ(body.motions[2].z, 0.0f);
 }
 
 /// Two edges that cross, of a body each.
@@ -70,7 +92,8 @@ struct CrossedEdges {
     Buffer<int> push_rows{"push_rows", 4}, push_counts{"push_counts", 2},
         push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_CONTACT_STRIDE*kRoom};
     Buffer<float4> sides{"sides", codes.count()}, slips{"slips", codes.count()},
-        forces{"forces", codes.count()}, standing{"standing", 2};
+        forces{"forces", codes.count()}, points{"points", codes.count()},
+        other_points{"other_points", codes.count()}, standing{"standing", 2};
 
     /// The first edge weighs 1/4 and 3/4, the second one 1/2 and 1/2; 0.01 m apart.
     CrossedEdges() {
@@ -113,7 +136,7 @@ struct CrossedEdges {
             launch(kernels::collect_pushes, Segments{}, positions, targets, members, shares,
                    columns, bodies, leaders, rows, counts, corner0, corner1, corner2, corner3,
                    normals, weights, measures, normals, push_rows, push_counts, push_needs, codes,
-                   sides, slips, forces, standing, 2, 2, 0.0f, 0);
+                   sides, slips, forces, points, other_points, standing, 2, 2, 0.0f, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 2);
     }
 };
@@ -129,6 +152,9 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
         EXPECT_EQ(edges.standing[body].w, 1.0f);
+        EXPECT_NEAR(edges.points[body].x, 0.0f, 1e-7f);
+        EXPECT_NEAR(edges.points[body].y, body == 0 ? 0.01f : 0.0f, 1e-7f);
+        EXPECT_EQ(edges.points[body].y, edges.other_points[1 - body].y);
     }
 }
 

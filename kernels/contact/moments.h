@@ -1,0 +1,132 @@
+#ifndef WEFT_KERNELS_CONTACT_MOMENTS_H
+#define WEFT_KERNELS_CONTACT_MOMENTS_H
+
+// Where a free body's mass is, and where it should be: once per substep, behind its iterations, in
+// parts of the body's mass. With r from the centre of mass, the inertia of its turns is
+// tr(S) - S of S = mean of r r^T, and what is missing of its angular momentum is the mean of
+// r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
+// for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
+// are too coarse for squares of coordinates far from the origin.
+#define WEFT_MOMENT_PARTS 6
+
+#include "kernels/contact/motions.h"
+#include "kernels/descent/free_bodies.h"
+
+WEFT_KERNELS_BEGIN
+
+typedef struct {
+    real3 centre;  ///< mean of x [m]
+    sym3 spread;   ///< of r r^T [m^2]
+    real3 offset;  ///< of r [m]; the lag, x~ - x, of these here:
+    real3 lag;     ///< [m]
+    mat3 lags;     ///< r (x~ - x)^T [m^2]
+} moments;
+
+WEFT_INLINE moments no_moments(void) {
+    const real3 zero = no_motion().shift;
+    moments m = {zero, diagonal_sym(splat(0.0f)), zero, zero, make_mat(zero, zero, zero)};
+    return m;
+}
+
+WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
+    a.centre = add_scaled(a.centre, b.centre, share);
+    a.spread = add_sym(a.spread, scale_sym(b.spread, share));
+    a.offset = add_scaled(a.offset, b.offset, share);
+    a.lag = add_scaled(a.lag, b.lag, share);
+    a.lags = make_mat(add_scaled(a.lags.x, b.lags.x, share), add_scaled(a.lags.y, b.lags.y, share),
+                      add_scaled(a.lags.z, b.lags.z, share));
+    return a;
+}
+
+/// table  [6 * rows] column-major
+WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
+    const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
+    store4(table, i, with_w(m.centre, m.spread.xx));
+    store4(table, column(i, rows, 1), rest);
+    store4(table, column(i, rows, 2), with_w(m.offset, m.spread.zz));
+    store4(table, column(i, rows, 3), with_w(m.lags.x, m.lag.x));
+    store4(table, column(i, rows, 4), with_w(m.lags.y, m.lag.y));
+    store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
+}
+
+WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, integer k) {
+    const real4 a = gather4(table, k);
+    const real4 b = gather4(table + rows, k);
+    const real4 c = gather4(table + 2 * rows, k);
+    const real4 x = gather4(table + 3 * rows, k);
+    const real4 y = gather4(table + 4 * rows, k);
+    const real4 z = gather4(table + 5 * rows, k);
+    moments m;
+    m.centre = xyz(a);
+    m.spread = make_sym(a.w, b.x, b.y, b.z, b.w, c.w);
+    m.offset = xyz(c);
+    m.lag = make3(x.w, y.w, z.w);
+    m.lags = make_mat(xyz(x), xyz(y), xyz(z));
+    return m;
+}
+
+/// The part of one column.
+/// positions, targets, members, shares, rows  as in add_lags
+/// origins   [columns] a vertex of the column's body, the same for all columns of it
+/// partials  [6 * columns] written, column-major
+WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
+            WEFT_GLOBAL float4* partials, int column_count) {
+    const real3 origin = xyz(gather4(positions, load_index(origins, i)));
+    moments sum = no_moments();
+    const int length = rows[2 * i.first + 1];
+    for (int k = 0; k < length; ++k) {
+        const item entry = {rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
+        const integer v = load_index(members, entry);
+        const real3 x = xyz(gather4(positions, v));
+        const real3 r = subtract(x, origin);
+        const real3 lag = subtract(xyz(gather4(targets, v)), x);
+        const moments one = {x, outer_sym(r, splat(1.0f)), r, lag, outer_mat(r, lag)};
+        sum = add_share_of_moments(sum, one, load(shares, entry));
+    }
+    store_moments(partials, column_count, i, sum);
+}
+
+/// Adds up the runs of each body, and sees them from its centre of mass.
+/// sums       [6 * sum_count] of the runs and more rows, column-major
+/// first_run, counts, most_runs  as in solve_bodies; sum_count is that more than there are runs
+/// moments_of [6 * (bodies + 1)] written, column-major; of the last one nothing
+WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
+            WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
+            int sum_count, int body_count) {
+    moments sum = no_moments();
+    const integer first = load_index(first_run, i);
+    const real count = load(counts, i);
+    for (int k = 0; k < most_runs; ++k) {
+        const real own = splat((float)k) < count ? splat(1.0f) : splat(0.0f);
+        sum = add_share_of_moments(sum, gather_moments(sums + k, sum_count, first), own);
+    }
+    const real3 back = scale(sum.offset, splat(-1.0f));
+    sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
+    sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));
+    sum.offset = no_motion().shift;
+    store_moments(moments_of, body_count + 1, i, sum);
+}
+
+/// What turns of a body have to overcome [m^2], in parts of its mass. Where all of it lies on a
+/// line or in a point, turns about that move nothing: a little is added, so that they stay finite.
+WEFT_INLINE sym3 inertia_of(moments m) {
+    const real size = trace_sym(m.spread);
+    return add_diagonal(scale_sym(m.spread, splat(-1.0f)),
+                        size + splat(2e-5f) * size + splat(1e-12f));
+}
+
+/// What is missing of the angular momentum of a body that is turned already [m^2].
+WEFT_INLINE real3 lag_of_turn(moments m, real3 turn) {
+    const mat3 goals = make_mat(add(m.lags.x, make3(m.spread.xx, m.spread.xy, m.spread.xz)),
+                                add(m.lags.y, make3(m.spread.xy, m.spread.yy, m.spread.yz)),
+                                add(m.lags.z, make3(m.spread.xz, m.spread.yz, m.spread.zz)));
+    const mat3 turned = make_mat(way_of_turn(turn, goals.x), way_of_turn(turn, goals.y),
+                                 way_of_turn(turn, goals.z));
+    return add(axis_of(m.lags), axis_of(turned));
+}
+
+WEFT_KERNELS_END
+
+#endif
