@@ -27,9 +27,11 @@
 //
 // All that is in units of M / h^2, in 12 parts: float4
 //   0..4   the form of motions that contacts with others have, see store_sym6
-//   5..9   likewise of those with what is not of the body's group
-//   10     the lag less h^2/M G [m]; what is missing of the first form
-//   11     the same of turns [m^2]: here h^2/M times the torque alone; and of the second form
+//   5      the lag less h^2/M G [m]; what is missing of the first form
+//   6      the same of turns [m^2]: here h^2/M times the torque alone; and of the second form
+//   7..11  as the first five, of those with what is not of the body's group
+// of which strains (strains.h) have the first seven.
+#define WEFT_STRAIN_PARTS 7
 #define WEFT_BODY_PARTS 12
 
 #include "kernels/contact/moments.h"
@@ -70,6 +72,18 @@ WEFT_INLINE body_sum add_push_at(body_sum sum, derivatives push, real3 lever, re
     return sum;
 }
 
+/// What it does to the body's strain.
+WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, real yielding) {
+    const real3 force = scale(push.gradient, -yielding);
+    const mat3 stretch = stretch_mat(lever);
+    const mat3 shear = shear_mat(lever);
+    const sym6 form = form_of_arms(scale_sym(push.hessian, yielding), stretch, shear);
+    sum.lag.shift = add(sum.lag.shift, multiply_transposed_mat(stretch, force));
+    sum.lag.turn = add(sum.lag.turn, multiply_transposed_mat(shear, force));
+    sum.block = add_scaled_sym6(sum.block, form, splat(1.0f));
+    return sum;
+}
+
 /// As add_lags, with what contacts do.
 /// standing       [columns] as collect_pushes leaves it, as are rows to other_points
 /// column_bodies  [columns] of which body each is
@@ -77,30 +91,38 @@ WEFT_INLINE body_sum add_push_at(body_sum sum, derivatives push, real3 lever, re
 /// moments_of     [6 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
+/// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
 /// partials       [12 * columns] written, column-major, see above
 /// friction, creep  as in add_push
 /// h2             the square of the substep [s^2]
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
-///                have ended badly: nothing reads them
+///                have ended badly: nothing reads them, nor `strains`
+/// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
 WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* codes, WEFT_GLOBAL const float4* sides,
-            WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces,
-            WEFT_GLOBAL const float4* points, WEFT_GLOBAL const float4* other_points,
-            WEFT_GLOBAL float4* partials, float friction, float creep, float h2, int has_moved,
-            int column_count, int body_count) {
+            WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const int* rows,
+            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes,
+            WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
+            WEFT_GLOBAL const float4* forces, WEFT_GLOBAL const float4* points,
+            WEFT_GLOBAL const float4* other_points, WEFT_GLOBAL float4* partials, float friction,
+            float creep, float h2, int has_moved, int is_strain, int column_count, int body_count) {
     const real3 no_way = no_motion().shift;
     const integer own_body = load_index(column_bodies, i);
     const real yielding = splat(h2) / gather(masses, own_body);
     const real3 centre = xyz(gather4(moments_of, own_body));
     body_motion own = no_motion();
-    if (has_moved) own = gather_motion(motions, body_count + 1, own_body);
-    const real4 left = load4(standing, i);
+    body_motion own_strain = no_motion();
+    if (has_moved) {
+        own = gather_motion(motions, body_count + 1, own_body);
+        own_strain = gather_motion(strains, body_count + 1, own_body);
+    }
     body_sum sum = no_body_sum();
-    sum.lag.shift = xyz(left);
-    if (has_moved) sum.lag.shift = add_scaled(sum.lag.shift, own.shift, -left.w);
+    if (!is_strain) {
+        const real4 left = load4(standing, i);
+        sum.lag.shift = xyz(left);
+        if (has_moved) sum.lag.shift = add_scaled(sum.lag.shift, own.shift, -left.w);
+    }
 
     const whole start = load_whole(rows, i);
     const whole count = load_whole(counts, i);
@@ -114,12 +136,15 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         const real3 point = xyz(gather4(points, entry));
         real3 lever = subtract(point, centre);
         if (has_moved) {
-            const integer other_body = address(opposite);
-            const body_motion other = gather_motion(motions, body_count + 1, other_body);
+            const integer other = address(opposite);
             const real3 other_lever =
-                subtract(xyz(gather4(other_points, entry)), xyz(gather4(moments_of, other_body)));
+                subtract(xyz(gather4(other_points, entry)), xyz(gather4(moments_of, other)));
+            const real3 other_way =
+                add(way_of_motion(gather_motion(motions, body_count + 1, other), other_lever),
+                    way_of_strain(gather_motion(strains, body_count + 1, other), other_lever));
             const real3 turned = way_of_turn(own.turn, lever);
-            const real3 way = subtract(add(own.shift, turned), way_of_motion(other, other_lever));
+            const real3 own_way = add(add(own.shift, turned), way_of_strain(own_strain, lever));
+            const real3 way = subtract(own_way, other_way);
             c.gap = c.gap + dot3(way, c.normal);
             c.slip = add(c.slip, along_surface(way, c.normal));
             c.ahead = c.range;
@@ -127,21 +152,30 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         }
         const derivatives push = add_push(zero_derivatives(), c, on, no_way, friction, creep);
         const real outside = code > opposite + opposite ? splat(1.0f) : splat(0.0f);
-        sum = add_push_at(sum, push, lever, yielding, outside);
+        if (is_strain)
+            sum = add_strain_at(sum, push, lever, yielding);
+        else
+            sum = add_push_at(sum, push, lever, yielding, outside);
     }
     store_sym6(partials, column_count, i, sum.block);
-    store_sym6(partials + 5 * column_count, column_count, i, sum.outside);
-    store4(partials, column(i, column_count, 10), with_w(sum.lag.shift, sum.block.mixed.z.z));
-    store4(partials, column(i, column_count, 11), with_w(sum.lag.turn, sum.outside.mixed.z.z));
+    store4(partials, column(i, column_count, 5), with_w(sum.lag.shift, sum.block.mixed.z.z));
+    store4(partials, column(i, column_count, 6), with_w(sum.lag.turn, sum.outside.mixed.z.z));
+    if (!is_strain) store_sym6(partials + 7 * column_count, column_count, i, sum.outside);
+}
+
+/// What a run has of strains; of motions that is all but what is outside.
+WEFT_INLINE body_sum gather_strain_sum(WEFT_GLOBAL const float4* lags, int lag_count, integer run) {
+    const real4 shift = gather4(lags + 5 * lag_count, run);
+    body_sum sum = no_body_sum();
+    sum.lag = make_motion(xyz(shift), xyz(gather4(lags + 6 * lag_count, run)));
+    sum.block = gather_sym6(lags, lag_count, run, shift.w);
+    return sum;
 }
 
 WEFT_INLINE body_sum gather_body_sum(WEFT_GLOBAL const float4* lags, int lag_count, integer run) {
-    const real4 shift = gather4(lags + 10 * lag_count, run);
-    const real4 turn = gather4(lags + 11 * lag_count, run);
-    body_sum sum;
-    sum.lag = make_motion(xyz(shift), xyz(turn));
-    sum.block = gather_sym6(lags, lag_count, run, shift.w);
-    sum.outside = gather_sym6(lags + 5 * lag_count, lag_count, run, turn.w);
+    body_sum sum = gather_strain_sum(lags, lag_count, run);
+    const real zz = gather4(lags + 6 * lag_count, run).w;
+    sum.outside = gather_sym6(lags + 7 * lag_count, lag_count, run, zz);
     return sum;
 }
 
@@ -163,14 +197,15 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 /// masses     [bodies] [kg]
 /// moments_of [6 * (bodies + 1)] as weigh_bodies leaves them
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
+/// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
 /// has_moved  as in add_pushed_lags
 /// most_runs  that a body has; lag_count is that more than there are runs
 WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL float4* motions,
-            WEFT_GLOBAL float4* rests, int has_moved, int most_runs, int lag_count,
-            int body_count) {
+            WEFT_GLOBAL float4* strains, WEFT_GLOBAL float4* rests, int has_moved, int most_runs,
+            int lag_count, int body_count) {
     const real zero = splat(0.0f);
     body_sum sum = no_body_sum();
     const integer first = load_index(first_run, i);
@@ -182,7 +217,13 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     const integer own_number = address(item_numbers(i));
     const moments body = gather_moments(moments_of, body_count + 1, own_number);
     body_motion gone = no_motion();
-    if (has_moved) gone = gather_motion(motions, body_count + 1, own_number);
+    if (has_moved) {
+        gone = gather_motion(motions, body_count + 1, own_number);
+        const body_motion strain = gather_motion(strains, body_count + 1, own_number);
+        sum.lag.turn = add(sum.lag.turn, axis_of(strained_ways(body.spread, strain)));
+    } else {
+        store_motion(strains, body_count + 1, i, no_motion());
+    }
     sum.lag.turn = add(sum.lag.turn, lag_of_turn(body, gone.turn));
 
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;
@@ -201,17 +242,18 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
 
 /// Moves the vertices of free bodies; see shift_bodies.
 /// positions, deviations, velocities, inverse_h  as there
-/// motions     [2 * (bodies + 1)] the last one is zero
+/// motions, strains  [2 * (bodies + 1)] the last one is zero
 /// moments_of  [6 * (bodies + 1)] likewise
 /// bodies      [vertices] which each belongs to; the last one: to none
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
-            WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const int* bodies, float inverse_h,
-            int body_count) {
+            WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
+            WEFT_GLOBAL const int* bodies, float inverse_h, int body_count) {
     const integer body = load_index(bodies, i);
     const real4 x = load4(positions, i);
     const real3 lever = subtract(xyz(x), xyz(gather4(moments_of, body)));
-    const real3 way = way_of_motion(gather_motion(motions, body_count + 1, body), lever);
+    const real3 way = add(way_of_motion(gather_motion(motions, body_count + 1, body), lever),
+                          way_of_strain(gather_motion(strains, body_count + 1, body), lever));
     shift_vertex(positions, deviations, velocities, i, way, inverse_h);
 }
 

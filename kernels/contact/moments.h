@@ -117,13 +117,25 @@ WEFT_INLINE sym3 inertia_of(moments m) {
                         size + splat(2e-5f) * size + splat(1e-12f));
 }
 
+/// The mean of (R r - r) r^T, of the mean of r r^T.
+WEFT_INLINE mat3 turned_ways(sym3 spread, real3 turn) {
+    return make_mat(way_of_turn(turn, make3(spread.xx, spread.xy, spread.xz)),
+                    way_of_turn(turn, make3(spread.xy, spread.yy, spread.yz)),
+                    way_of_turn(turn, make3(spread.xz, spread.yz, spread.zz)));
+}
+
+/// The mean of (E r) r^T, likewise.
+WEFT_INLINE mat3 strained_ways(sym3 spread, body_motion strain) {
+    return make_mat(way_of_strain(strain, make3(spread.xx, spread.xy, spread.xz)),
+                    way_of_strain(strain, make3(spread.xy, spread.yy, spread.yz)),
+                    way_of_strain(strain, make3(spread.xz, spread.yz, spread.zz)));
+}
+
 /// What is missing of the angular momentum of a body that is turned already [m^2].
 WEFT_INLINE real3 lag_of_turn(moments m, real3 turn) {
-    const mat3 goals = make_mat(add(m.lags.x, make3(m.spread.xx, m.spread.xy, m.spread.xz)),
-                                add(m.lags.y, make3(m.spread.xy, m.spread.yy, m.spread.yz)),
-                                add(m.lags.z, make3(m.spread.xz, m.spread.yz, m.spread.zz)));
-    const mat3 turned = make_mat(way_of_turn(turn, goals.x), way_of_turn(turn, goals.y),
-                                 way_of_turn(turn, goals.z));
+    const mat3 turned_lags = make_mat(way_of_turn(turn, m.lags.x), way_of_turn(turn, m.lags.y),
+                                      way_of_turn(turn, m.lags.z));
+    const mat3 turned = add_mat(turned_lags, turned_ways(m.spread, turn));
     return add(axis_of(m.lags), axis_of(turned));
 }
 

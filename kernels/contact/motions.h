@@ -102,6 +102,38 @@ WEFT_INLINE sym6 form_at_lever(sym3 form, real3 lever) {
     return a;
 }
 
+/// The form of what takes a point by the ways arm * shift + other_arm * turn.
+WEFT_INLINE sym6 form_of_arms(sym3 form, mat3 arm, mat3 other_arm) {
+    const mat3 pull = multiply_sym_mat(form, arm);
+    const mat3 other_pull = multiply_sym_mat(form, other_arm);
+    sym6 a;
+    a.shift = inner_sym(arm, pull);
+    a.mixed = make_mat(multiply_transposed_mat(arm, other_pull.x),
+                       multiply_transposed_mat(arm, other_pull.y),
+                       multiply_transposed_mat(arm, other_pull.z));
+    a.turn = inner_sym(other_arm, other_pull);
+    return a;
+}
+
+/// Where a strain leads what is at a lever: E r (strains.h).
+WEFT_INLINE real3 way_of_strain(body_motion e, real3 r) {
+    return make3(e.shift.x * r.x + e.turn.z * r.y + e.turn.y * r.z,
+                 e.turn.z * r.x + e.shift.y * r.y + e.turn.x * r.z,
+                 e.turn.y * r.x + e.turn.x * r.y + e.shift.z * r.z);
+}
+
+/// What takes the first three numbers of a strain to ways at a lever,
+WEFT_INLINE mat3 stretch_mat(real3 r) {
+    const real zero = splat(0.0f);
+    return make_mat(make3(r.x, zero, zero), make3(zero, r.y, zero), make3(zero, zero, r.z));
+}
+
+/// and the last three.
+WEFT_INLINE mat3 shear_mat(real3 r) {
+    const real zero = splat(0.0f);
+    return make_mat(make3(zero, r.z, r.y), make3(r.z, zero, r.x), make3(r.y, r.x, zero));
+}
+
 /// The form of motions about another centre, from which the own one is at a lever.
 WEFT_INLINE sym6 form_from(sym6 a, real3 lever) {
     const mat3 arm = lever_mat(lever);

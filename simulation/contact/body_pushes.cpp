@@ -52,12 +52,13 @@ void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, 
 }
 
 Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
-                       Buffer<float4>& motions, int has_moved, Buffer<float4>& partials) {
+                       Buffer<float4>& motions, Buffer<float4>& strains, int has_moved,
+                       int is_strain, Buffer<float4>& partials) {
     const int body_count = static_cast<int>(masses.count());
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
-                  moments, motions, table_.rows(), table_.counts(), codes_, sides_, slips_, forces_,
-                  points_, other_points_, partials, friction_, creep_, h2_, has_moved,
-                  columns_.count, body_count);
+                  moments, motions, strains, table_.rows(), table_.counts(), codes_, sides_, slips_,
+                  forces_, points_, other_points_, partials, friction_, creep_, h2_, has_moved,
+                  is_strain, columns_.count, body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {

@@ -24,10 +24,11 @@ public:
     void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
 
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
-    /// column_bodies, masses, moments, motions, has_moved, partials: as the kernel's
+    /// All parameters as the kernel's.
     Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
-               Buffer<float4>& motions, int has_moved, Buffer<float4>& partials);
-    /// What that needs of a region, besides the moments and the motions.
+               Buffer<float4>& motions, Buffer<float4>& strains, int has_moved, int is_strain,
+               Buffer<float4>& partials);
+    /// What that needs of a region, besides the moments, the motions and the strains.
     void add_sum_accesses(Step::Adding& task, const Region& region);
 
     RowTable& table() { return table_; }

@@ -21,7 +21,8 @@ public:
     Launch weigh(const Segments& all);
     void add_weigh_accesses(Step::Adding& task);
 
-    /// [6 * (bodies + 1)] see the kernels
+    /// [columns], [6 * (bodies + 1)] see the kernels
+    Buffer<int>& origins() { return origins_; }
     Buffer<float4>& moments() { return moments_; }
     void add_reads(Step::Adding& task);
 

@@ -1,8 +1,10 @@
 #include "simulation/solver/touching_bodies.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "kernels/contact/groups.h"
+#include "kernels/contact/strains.h"
 
 namespace weft {
 
@@ -10,6 +12,7 @@ namespace {
 
 constexpr int kParts = WEFT_BODY_PARTS;
 constexpr int kRounds = 12;
+constexpr int kStrainEvery = 3;  ///< rounds, from the first one on
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -36,7 +39,7 @@ std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bod
 
 }  // namespace
 
-TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact,
+TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
                                int first_kind)
     : model_(model),
       bodies_(bodies),
@@ -53,6 +56,7 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
       rests_("touching.rests", 7 * first_run_.count()),
       group_motions_("touching.group_motions", 3 * first_run_.count()),
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
+      strains_("touching.strains", motions_.count()),
       moments_(bodies, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
@@ -61,6 +65,8 @@ TouchingBodies::TouchingBodies(const Model& model, FreeBodies& bodies, ContactRe
     weigh_ = {"bodies", first_kind + 1, {moments_.weigh(all())}};
     steps_ = {"bodies", first_kind + 1, solve(0)};
     steps_again_ = {"bodies", first_kind + 1, solve(1)};
+    solids_ = BodyStrains::of(model, bodies, body_of_);
+    if (solids_) strain_steps_ = {"bodies", first_kind + 1, {solve_strains()}};
 }
 
 void TouchingBodies::number_bodies(const Model& model) {
@@ -83,31 +89,44 @@ void TouchingBodies::number_bodies(const Model& model) {
 std::vector<Launch> TouchingBodies::solve(int has_moved) {
     return {
         launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
-               moments_.moments(), motions_, rests_, has_moved, bodies_.most_runs(), lag_count_,
-               body_count()),
+               moments_.moments(), motions_, strains_, rests_, has_moved, bodies_.most_runs(),
+               lag_count_, body_count()),
         launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
                groups_.counts, groups_.members, group_motions_, body_count(), kInstance),
         launch(kernels::add_groups, all(), motions_, rests_, moments_.moments(), group_motions_,
                groups_.leaders, body_count(), kInstance)};
 }
 
+Launch TouchingBodies::solve_strains() {
+    return launch(kernels::solve_strains, all(), lags_, solids_->virials(), first_run_, counts_,
+                  masses_, solids_->stiffness(), moments_.moments(), motions_, strains_,
+                  static_cast<float>(model_.h * model_.h), bodies_.most_runs(), lag_count_,
+                  body_count());
+}
+
 std::vector<const TaskBody*> TouchingBodies::bodies() const {
-    return {&collect_, &weigh_, &steps_, &sums_again_, &steps_again_};
+    std::vector<const TaskBody*> list{&collect_, &weigh_, &steps_, &sums_again_, &steps_again_};
+    if (solids_) list.insert(list.end(), {&strain_sums_, &strain_steps_});
+    return list;
 }
 
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         int kind) {
     targets_ = &targets;
     collect_.launches = moments_.sum(positions, targets);
+    if (solids_)
+        std::ranges::move(solids_->sum(positions, moments_), std::back_inserter(collect_.launches));
     collect_.launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
-    sums_again_ = {"momentum", kind, sum_round(1)};
-    return sum_round(0);
+    sums_again_ = {"momentum", kind, sum_round(1, 0)};
+    strain_sums_ = {"momentum", kind, sum_round(1, 1)};
+    return sum_round(0, 0);
 }
 
-std::vector<Launch> TouchingBodies::sum_round(int has_moved) {
+std::vector<Launch> TouchingBodies::sum_round(int has_moved, int is_strain) {
     return {
-        pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, has_moved, partials_),
-        bodies_.add_columns(partials_, lags_, kParts, lag_count_)};
+        pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, has_moved,
+                    is_strain, partials_),
+        bodies_.add_columns(partials_, lags_, is_strain ? WEFT_STRAIN_PARTS : kParts, lag_count_)};
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
@@ -125,6 +144,9 @@ void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
         const TaskBody& sums = round == 0 ? body : sums_again_;
         for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
         add_steps(step, round == 0 ? steps_ : steps_again_, iteration);
+        if (!solids_ || round % kStrainEvery != 0) continue;
+        for_each([&](const Region& region) { add_sum(step, strain_sums_, region, iteration); });
+        add_steps(step, strain_steps_, iteration);
     }
 }
 
@@ -137,6 +159,7 @@ void TouchingBodies::add_collection(Step& step, const Region& region, Buffer<flo
     task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
     pushes_.add_collect_accesses(task, region, first, last);
     moments_.add_sum_accesses(task, region);
+    if (solids_) solids_->add_sum_accesses(task, region);
 }
 
 void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
@@ -157,14 +180,15 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
         task.reads(lags_, first, first + bodies_.run_count());
     }
     moments_.add_reads(task);
-    for (Buffer<float4>* written : {&motions_, &rests_, &group_motions_}) {
+    if (solids_) solids_->add_reads(task);
+    for (Buffer<float4>* written : {&motions_, &strains_, &rests_, &group_motions_}) {
         task.updates(*written, 0, static_cast<int>(written->count()));
     }
 }
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
-                  *model.velocities, motions_, moments_.moments(), body_of_,
+                  *model.velocities, motions_, strains_, moments_.moments(), body_of_,
                   static_cast<float>(1.0 / model.h), body_count());
 }
 
@@ -172,6 +196,7 @@ Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
 void TouchingBodies::add_motion_accesses(Step::Adding& task) {
     moments_.add_reads(task);
     task.reads(motions_, 0, static_cast<int>(motions_.count()));
+    task.reads(strains_, 0, static_cast<int>(strains_.count()));
 }
 
 }  // namespace weft

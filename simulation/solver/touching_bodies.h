@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/solver/body_moments.h"
+#include "simulation/solver/body_strains.h"
 #include "simulation/solver/free_bodies.h"
 
 namespace weft {
@@ -15,8 +17,7 @@ namespace weft {
 class TouchingBodies {
 public:
     /// first_kind: of the tasks. All others must outlive this.
-    TouchingBodies(const Model& model, FreeBodies& bodies, ContactResponse& contact,
-                   int first_kind);
+    TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact, int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets, int kind);
@@ -34,7 +35,8 @@ public:
     RowTable& table() { return pushes_.table(); }
 
 private:
-    std::vector<Launch> sum_round(int has_moved);
+    std::vector<Launch> sum_round(int has_moved, int is_strain);
+    Launch solve_strains();
     void add_collection(Step& step, const Region& region, Buffer<float4>& positions, int iteration);
     void add_sum(Step& step, const TaskBody& body, const Region& region, int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
@@ -59,10 +61,13 @@ private:
     Buffer<float4> rests_;          ///< [7 * bodies]
     Buffer<float4> group_motions_;  ///< [3 * bodies]
     Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
+    Buffer<float4> strains_;        ///< [2 * (bodies + 1)]
     BodyMoments moments_;
-    Buffer<int> begin_;  ///< [strips + 1] all bodies are items of strip 0
+    Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0
+    std::unique_ptr<BodyStrains> solids_;  ///< null: only cloth is free
     Buffer<float4>* targets_ = nullptr;
     TaskBody collect_, weigh_, steps_;
+    TaskBody strain_sums_, strain_steps_;
     TaskBody sums_again_, steps_again_;  ///< of the rounds behind the first one
 };
 

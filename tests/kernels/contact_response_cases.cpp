@@ -8,6 +8,7 @@
 #include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/sticking.h"
+#include "kernels/contact/strains.h"
 #include "kernels/contact/terms.h"
 #include "kernels/contact/truncate.h"
 #include "kernels/newton/contacts.h"
@@ -482,13 +483,14 @@ void lags_case(KernelCase& c) {
     for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
     auto& moments = add_moments(c, kBodies);
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
+    auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     Pushes pushes(c);
     auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
     c.launch = launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses,
-                      moments, motions, pushes.rows.rows, pushes.rows.counts, pushes.codes,
+                      moments, motions, strains, pushes.rows.rows, pushes.rows.counts, pushes.codes,
                       pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
                       partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-                      c.random.integer(0, 1), c.items, kBodies);
+                      c.random.integer(0, 1), c.random.integer(0, 1), c.items, kBodies);
 }
 
 /// Forms of motions of so many: semi-definite, five rows of each; some are zero.
@@ -510,17 +512,47 @@ void bodies_case(KernelCase& c) {
     const int lag_count = c.items + Runs::kMost;
     auto& lags = c.add<float4>("lags", WEFT_BODY_PARTS * lag_count);
     fill_forms(c, lags, lag_count, 0);
-    fill_forms(c, lags, lag_count, 5);
-    for (int k = 10 * lag_count; k < 12 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
+    fill_forms(c, lags, lag_count, 7);
+    for (int k = 5 * lag_count; k < 7 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
     Runs runs(c);
     auto& masses = c.add<float>("masses", c.items);
     for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
     auto& moments = add_moments(c, c.items);
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
+    auto& strains = add_points(c, "strains", 2 * (c.items + 1));
     auto& rests = c.add<float4>("rests", 7 * c.items);
     c.launch =
         launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses, moments,
-               motions, rests, c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
+               motions, strains, rests, c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
+}
+
+void strains_case(KernelCase& c) {
+    const int lag_count = c.items + Runs::kMost;
+    auto& lags = c.add<float4>("lags", WEFT_BODY_PARTS * lag_count);
+    fill_forms(c, lags, lag_count, 0);
+    auto& virials = add_points(c, "virials", WEFT_VIRIAL_PARTS * lag_count);
+    Runs runs(c);
+    auto& masses = c.add<float>("masses", c.items);
+    for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
+    auto& stiffness = c.add<float>("stiffness", 2 * c.items);
+    for (float& s : stiffness.span()) s = std::max(c.random.real(-1e3f, 1e4f), 0.0f);
+    auto& moments = add_moments(c, c.items);
+    auto& motions = add_points(c, "motions", 2 * (c.items + 1));
+    auto& strains = add_points(c, "strains", 2 * (c.items + 1));
+    c.launch =
+        launch(kernels::solve_strains, c.segments, lags, virials, runs.first, runs.counts, masses,
+               stiffness, moments, motions, strains, 1e-4f, Runs::kMost, lag_count, c.items);
+}
+
+void virials_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& gradients = c.add<float>("gradients", 9 * c.items);
+    for (float& g : gradients.span()) g = c.random.real(-1.0f, 1.0f);
+    Columns columns(c);
+    auto& origins = add_indices(c, "origins", c.items, c.items);
+    auto& partials = c.add<float4>("partials", WEFT_VIRIAL_PARTS * c.items);
+    c.launch = launch(kernels::add_virials, c.segments, positions, gradients, columns.members,
+                      columns.shares, columns.rows, origins, partials, c.items, c.items);
 }
 
 /// What solve_bodies leaves: positive masses, and semi-definite forms; nothing of some bodies.
@@ -567,10 +599,11 @@ void move_case(KernelCase& c) {
     auto& deviations = add_points(c, "deviations", c.items);
     auto& velocities = add_points(c, "velocities", c.items);
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
+    auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      moments, bodies, 240.0f, kBodies);
+                      strains, moments, bodies, 240.0f, kBodies);
 }
 
 const bool added =
@@ -581,7 +614,8 @@ const bool added =
     add_case("collect_pushes", collect_case) && add_case("add_pushed_lags", lags_case) &&
     add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
     add_case("add_groups", add_groups_case) && add_case("add_moments", moments_case) &&
-    add_case("weigh_bodies", weigh_case) && add_case("move_bodies", move_case);
+    add_case("weigh_bodies", weigh_case) && add_case("move_bodies", move_case) &&
+    add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&

@@ -17,7 +17,7 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /// One body of one run, on which solve_bodies is run.
 struct OneBody {
     Buffer<float4> lags{"lags", 2 * WEFT_BODY_PARTS}, rests{"rests", 7}, motions{"motions", 4},
-        moments{"moments", 2 * WEFT_MOMENT_PARTS};
+        strains{"strains", 4}, moments{"moments", 2 * WEFT_MOMENT_PARTS};
     Buffer<int> first{"first_run", 1};
     Buffer<float> counts{"counts", 1}, masses{"masses", 1};
 
@@ -26,8 +26,9 @@ struct OneBody {
     /// What each part of the sum is; there are two runs, of which the second one is nobody's.
     float4& part(std::size_t number) { return lags[2 * number]; }
     void solve(int has_moved) {
-        const Launch launched = launch(kernels::solve_bodies, Segments{}, lags, first, counts,
-                                       masses, moments, motions, rests, has_moved, 1, 2, 1);
+        const Launch launched =
+            launch(kernels::solve_bodies, Segments{}, lags, first, counts, masses, moments, motions,
+                   strains, rests, has_moved, 1, 2, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
     }
 };
@@ -37,7 +38,7 @@ struct OneBody {
 TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
     OneBody body;
     for (float4& motion : body.motions.span()) motion = {kNone, kNone, kNone, kNone};
-    body.part(10) = {0.5f, 0.0f, 0.0f, 0.0f};
+    body.part(5) = {0.5f, 0.0f, 0.0f, 0.0f};
     body.solve(0);
     EXPECT_EQ(body.motions[0].x, 0.5f);
     body.solve(1);
@@ -45,7 +46,8 @@ TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
 }
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
-    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12);
+    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12),
+        strains("strains", 4);
     standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
     Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
     Buffer<float> masses("masses", 1);
@@ -54,10 +56,10 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     const auto lag_of_round = [&](int has_moved) {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
-                   rows, counts, codes, entries, entries, entries, entries, entries, partials, 0.0f,
-                   1.0f, 1e-4f, has_moved, 1, 1);
+                   strains, rows, counts, codes, entries, entries, entries, entries, entries,
+                   partials, 0.0f, 1.0f, 1e-4f, has_moved, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
-        return partials[10].x;
+        return partials[5].x;
     };
     for (float4& motion : motions.span()) motion = {kNone, kNone, kNone, kNone};
     EXPECT_EQ(lag_of_round(0), 0.25f);
@@ -68,7 +70,7 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
 /// Its elements know best, and the bits stay those of a scene without contacts.
 TEST(BodiesAsWholes, ABodyThatTouchesNothingIsNotTurned) {
     OneBody body;
-    body.part(10) = {0.5f, 0.25f, -0.125f, 0.0f};
+    body.part(5) = {0.5f, 0.25f, -0.125f, 0.0f};
     body.moments[0].w = body.moments[2].z = body.moments[4].w = 0.01f;
     body.moments[6].y = 1e-4f;
     body.solve(0);

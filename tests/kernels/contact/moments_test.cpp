@@ -121,7 +121,8 @@ TEST(BodyMoments, TellWhatIsLeftOfABodyThatIsTurned) {
 /// Pushed at one end: by a contact of that normal there.
 body_motion push_end(Cloud& cloud, real3 normal) {
     const moments body = cloud.weigh();
-    Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 7), motions("motions", 4);
+    Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 7), motions("motions", 4),
+        strains("strains", 4);
     Buffer<float> masses("masses", 1);
     masses[0] = 1.0f;
     const real3 lever = subtract(xyz(gather4(cloud.positions.data(), 0)), body.centre);
@@ -129,10 +130,10 @@ body_motion push_end(Cloud& cloud, real3 normal) {
     const item first = {0, 1};
     store_sym6(lags.data(), 2, first, form);
     const real3 force = scale(normal, 1e-3f);
-    store4(lags.data(), column(first, 2, 10), with_w(force, form.mixed.z.z));
-    store4(lags.data(), column(first, 2, 11), with_w(cross3(lever, force), 0.0f));
+    store4(lags.data(), column(first, 2, 5), with_w(force, form.mixed.z.z));
+    store4(lags.data(), column(first, 2, 6), with_w(cross3(lever, force), 0.0f));
     Cloud::run(launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts,
-                      masses, cloud.table, motions, rests, 0, 1, 2, 1),
+                      masses, cloud.table, motions, strains, rests, 0, 1, 2, 1),
                1);
     for (const float4& rest : rests.span()) EXPECT_TRUE(std::isfinite(rest.x + rest.y + rest.z));
     return gather_motion(motions.data(), 2, 0);

@@ -147,13 +147,14 @@ TEST_P(Resting, ColumnOfBlocksStaysWhereItIs) {
         EXPECT_LT(length(moved), kSway);
 }
 
-/// A slender one: without turns of bodies as wholes its top walked by 8 to 10 mm in this second.
+/// A slender one: without turns and strains of bodies as wholes its top walked by 8 to 10 mm in
+/// this second, and with turns alone by 2 to 3.
 TEST_P(Resting, SlenderColumnHardlyWalksByFewIterations) {
     ManualRun run(scene_of(column_of(4, 8)));
     run.run(90);
     const Vec3 before = momentum_of(run, 4).place;
     run.run(60);
-    EXPECT_LT(length(momentum_of(run, 4).place - before), 0.005);
+    EXPECT_LT(length(momentum_of(run, 4).place - before), 0.001);
 }
 
 /// Two blocks that meet at 1 m/s each, the second one of so many times the mass of the first.
@@ -269,9 +270,7 @@ TEST_P(Resting, LightBlockBearsAHeavyOne) {
     run.run(30);
     const Vec3 before = momentum_of(run, 2).place;
     run.run(20);
-    const Vec3 moved = momentum_of(run, 2).place - before;
-    EXPECT_LT(std::hypot(moved.x, moved.z), kSway);
-    EXPECT_LT(std::abs(moved.y), 5e-4) << "it bounces";
+    EXPECT_LT(length(momentum_of(run, 2).place - before), kSway);
     EXPECT_GT(momentum_of(run, 2).place.y - momentum_of(run, 1).place.y, 0.1)
         << "it is not crushed";
 }
