@@ -14,14 +14,14 @@ using Place = std::function<Vec3(int sheet, int column, int row)>;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Many small strips, in whose order everything then is.
-void order(ContactMesh& m) {
+/// In strips, in whose order everything then is.
+void order(ContactMesh& m, int strip_vertices) {
     Stencils triangles{3, {}};
     for (const auto& t : m.mesh.triangles) {
         triangles.vertices.insert(triangles.vertices.end(), t.begin(), t.end());
     }
     StripOptions options;
-    options.min_vertices_per_strip = 40;
+    options.min_vertices_per_strip = strip_vertices;
     const int count = static_cast<int>(m.mesh.rest.size());
     m.strips = make_strips(count, std::vector{triangles}, options);
     for (auto& t : m.mesh.triangles) {
@@ -45,8 +45,10 @@ void add_vertex(ContactMesh& m, Vec3 rest, Vec3 anchor, float reach) {
     m.anchors.push_back(to_float4(anchor, static_cast<double>(reach)));
 }
 
+constexpr int kSmallStrips = 40;
+
 ContactMesh sheets(const std::string& name, int count, int width, int height, float thickness,
-                   float reach, const Place& place) {
+                   float reach, const Place& place, int strip_vertices = kSmallStrips) {
     ContactMesh m;
     m.name = name;
     m.thickness = thickness;
@@ -67,7 +69,7 @@ ContactMesh sheets(const std::string& name, int count, int width, int height, fl
             }
         }
     }
-    order(m);
+    order(m, strip_vertices);
     return m;
 }
 
@@ -88,7 +90,7 @@ ContactMesh soup(unsigned seed, int vertices, int triangles, bool degenerate) {
         m.mesh.triangles.push_back({a, a + random.integer(1, 20), a + random.integer(1, 39)});
         m.mesh.triangle_body.push_back(0);
     }
-    order(m);
+    order(m, kSmallStrips);
     return m;
 }
 
@@ -161,12 +163,16 @@ std::vector<ContactMesh> contact_meshes() {
     all.push_back(soup(1, 150, 120, false));
     all.push_back(soup(2, 150, 120, true));
     all.push_back(flat_sheet(12));
-    // Folded twice, so large that patches need no look within a layer.
-    all.push_back(sheets("large folded", 1, 24, 72, 0.3f, 0.1f, [&](int, int column, int row) {
-        const int layer = row / 24;
-        const int along = layer % 2 == 0 ? row % 24 : 23 - row % 24;
-        return shaken({column + 0.0, 0.2 * layer, along + 0.0}, 0.02, random);
-    }));
+    // Folded twice, so large, and in such strips, that groups of patches lie amid a layer; the
+    // first layer and the last one face the same way.
+    all.push_back(sheets(
+        "large folded", 1, 26, 78, 0.3f, 0.1f,
+        [&](int, int column, int row) {
+            const int layer = row / 26;
+            const int along = layer % 2 == 0 ? row % 26 : 25 - row % 26;
+            return shaken({column - 13.0, 0.12 * layer, along - 13.0}, 0.02, random);
+        },
+        300));
     all.push_back(stack(3, 9, 0.2f, 0.3f, 0.1f));
     all.back().name = "not with itself";
     all.back().self = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <span>
 
@@ -11,8 +12,8 @@ namespace weft::test {
 
 namespace {
 
-/// Of lengths and of angles: what single precision cannot tell apart where coordinates reach 24.
-constexpr double kRounding = 5e-5;
+/// Of lengths and of angles: what single precision cannot tell apart.
+constexpr double kRounding = 2e-5;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -128,6 +129,16 @@ PairOracle::Patch PairOracle::group(int g) const {
     return group;
 }
 
+int PairOracle::flat_groups() const {
+    int count = 0;
+    for (int g = 0; g < groups_.beside.count(); ++g) {
+        const auto list = groups_.beside[g];
+        const bool is_inside = std::ranges::find(list, g) != list.end();
+        count += is_inside && group_patches_[index(g)].flat;
+    }
+    return count;
+}
+
 Verdict PairOracle::is_sheet(const std::array<Patch, 3>& parts, double cosine) {
     bool flat = true;
     bool near_limit = false;
@@ -198,7 +209,7 @@ PairOracle::Distance PairOracle::to_triangle(int vertex, const std::array<int, 3
     Distance best;
     const auto consider = [&](double a, double b, double c) {
         const Vec3 way = p - (a * x[0] + b * x[1] + c * x[2]);
-        if (length(way) < best.d) best = {length(way), way, {a, b, c}};
+        if (length(way) < best.d) best = {length(way), best.on_a_side, way, {a, b, c}};
     };
     const Vec3 n = cross(x[1] - x[0], x[2] - x[0]);
     if (dot(n, n) > 1e-10 * dot(x[1] - x[0], x[1] - x[0]) * dot(x[2] - x[0], x[2] - x[0])) {
@@ -213,6 +224,7 @@ PairOracle::Distance PairOracle::to_triangle(int vertex, const std::array<int, 3
         std::array<double, 3> w{};
         w[k] = 1.0 - s;
         w[(k + 1) % 3] = s;
+        best.on_a_side = std::min(best.on_a_side, length(p - x[k] - s * side));
         consider(w[0], w[1], w[2]);
     }
     return best;
@@ -228,7 +240,7 @@ PairOracle::Distance PairOracle::between(int edge, int other) const {
     Distance best;
     const auto consider = [&](double s, double t) {
         const Vec3 way = a + s * u - b - t * v;
-        if (length(way) < best.d) best = {length(way), way, {1.0 - s, s, 1.0 - t, t}};
+        if (length(way) < best.d) best = {length(way), 1e30, way, {1.0 - s, s, 1.0 - t, t}};
     };
     const Vec3 n = cross(u, v);
     if (dot(n, n) > 1e-10 * dot(u, u) * dot(v, v)) {
@@ -268,8 +280,19 @@ Verdict PairOracle::pushes(int vertex, int triangle, const Distance& d) const {
     for (std::size_t k = 0; k < 3; ++k) {
         if (d.weights[k] > 0.0) support.push_back(t[k]);
     }
-    if (support.size() == 3) return Verdict::kPushing;
-    // Where the foot on another side is as near, single precision may take that one.
+    // Where another foot is as near, on a side or at its end, single precision may take that one.
+    const double tie = 4.0 * std::numeric_limits<float>::epsilon() * d.d * d.d;
+    if (support.size() == 3) {
+        const double farther = d.on_a_side * d.on_a_side - d.d * d.d;
+        return farther < tie ? Verdict::kEither : Verdict::kPushing;
+    }
+    if (support.size() == 2) {
+        const auto weight = [](double w) { return w > 0.0 ? w : 1.0; };
+        const double end =
+            std::min({weight(d.weights[0]), weight(d.weights[1]), weight(d.weights[2])}) *
+            length(at(support[0]) - at(support[1]));
+        if (end * end < tie) return Verdict::kEither;
+    }
     const Vec3 n = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
     if (length(n) < 1e-3) return Verdict::kEither;
     int lowest = -1;

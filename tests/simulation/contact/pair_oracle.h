@@ -19,10 +19,13 @@ public:
 
     Verdict vertex_triangle(int vertex, int triangle) const;
     Verdict edge_edge(int edge, int other) const;
+    /// How many groups of patches need no look among themselves.
+    int flat_groups() const;
 
 private:
     struct Distance {
         double d = 1e30;
+        double on_a_side = 1e30;  ///< of a triangle, where that is farther
         Vec3 way{};
         std::vector<double> weights;
     };

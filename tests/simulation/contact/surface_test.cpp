@@ -1,5 +1,4 @@
 #include "simulation/contact/surface.h"
-#include "simulation/contact/patch_groups.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "simulation/contact/patch_groups.h"
 #include "tests/simulation/contact/contact_meshes.h"
 
 namespace weft::test {
