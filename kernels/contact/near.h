@@ -50,7 +50,7 @@ WEFT_INLINE int are_aligned(float4 a, float4 b) {
 
 /// Whether a group and another one, or itself, hang together and are so flat, with the one between
 /// them, that nothing of one can touch the other: all normals are within 60 degrees of one
-/// direction (30 of a patch, 15 of its group, half of 30 of both groups), and there is no border.
+/// direction (30 of a patch, 15 of its group, half of 30 of both groups), and there is no slit.
 /// tilts   as tilt_groups leaves them
 /// begin, besides, vias   of groups, as of patches in find_near_patches
 WEFT_INLINE int are_one_sheet(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
