@@ -281,7 +281,7 @@ Verdict PairOracle::pushes(int vertex, int triangle, const Distance& d) const {
         if (d.weights[k] > 0.0) support.push_back(t[k]);
     }
     // Where another foot is as near, on a side or at its end, single precision may take that one.
-    const double tie = 4.0 * std::numeric_limits<float>::epsilon() * d.d * d.d;
+    const double tie = 4.0 * double{std::numeric_limits<float>::epsilon()} * d.d * d.d;
     if (support.size() == 3) {
         const double farther = d.on_a_side * d.on_a_side - d.d * d.d;
         return farther < tie ? Verdict::kEither : Verdict::kPushing;

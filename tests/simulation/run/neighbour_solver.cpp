@@ -9,11 +9,13 @@ namespace {
 
 enum Kind { kPredict, kFind, kPart, kVelocities };
 
+constexpr std::size_t kNothingToSpare = 0;  ///< so that it grows more than once
+
 }  // namespace
 
 NeighbourSolver::NeighbourSolver(Model& model, float radius, int room)
     : model_(model),
-      table_("neighbours", model.vertices(), room),
+      table_("neighbours", model.vertices(), room, kNothingToSpare),
       ranges_("ranges", 2 * static_cast<std::size_t>(model.vertex_count())),
       others_(table_.add_column<int>("others")),
       squares_(table_.add_column<float>("squares")) {
