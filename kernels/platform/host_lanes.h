@@ -15,10 +15,66 @@ WEFT_INLINE auto lane_of(const Pack& pack, int lane) {
     return pack[lane];
 }
 
+typedef long long quarters __attribute__((vector_size(32)));
+
 WEFT_INLINE bool any_item(mask m) {
-    typedef long long halves __attribute__((vector_size(32)));
-    const halves h = reinterpret_cast<halves>(m);
-    return (h[0] | h[1] | h[2] | h[3]) != 0;
+    const quarters q = reinterpret_cast<quarters>(m);
+#ifdef __AVX__
+    return __builtin_ia32_ptestz256(q, q) == 0;
+#else
+    return (q[0] | q[1] | q[2] | q[3]) != 0;
+#endif
+}
+
+/// Bit by bit the lanes for which m holds.
+WEFT_INLINE unsigned lane_bits(mask m) {
+#ifdef __AVX__
+    return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<real>(m)));
+#else
+    unsigned bits = 0;
+    for (int lane = 0; lane < kLanes; ++lane) bits |= m[lane] != 0 ? 1u << lane : 0u;
+    return bits;
+#endif
+}
+
+/// What `best(a, b)` leaves of all lanes.
+template <class Vector, class Best>
+WEFT_INLINE auto best_of_lanes(Vector v, Best best) {
+    v = best(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+    v = best(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
+    v = best(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
+    return v[0];
+}
+
+WEFT_INLINE int largest_whole(whole w) {
+    return best_of_lanes(w, [](whole a, whole b) { return a > b ? a : b; });
+}
+
+WEFT_INLINE float smallest_real(real r) {
+    return best_of_lanes(r, [](real a, real b) { return a < b ? a : b; });
+}
+
+/// Calls action(lane) for the lanes for which m holds, in order.
+template <class Action>
+WEFT_INLINE void for_lanes(mask m, Action action) {
+    for (unsigned bits = lane_bits(m); bits != 0; bits &= bits - 1) action(std::countr_zero(bits));
+}
+
+template <class T, class Pack>
+WEFT_INLINE void scatter_lanes(mask m, T* p, integer k, const Pack& v) {
+    for_lanes(m, [&](int lane) { p[k[lane]] = v[lane]; });
+}
+
+WEFT_INLINE void scatter_where(mask m, float* p, integer k, real v) { scatter_lanes(m, p, k, v); }
+WEFT_INLINE void scatter_whole_where(mask m, int* p, integer k, whole v) {
+    scatter_lanes(m, p, k, v);
+}
+
+WEFT_INLINE void scatter4_where(mask m, float4* p, integer k, real4 v) {
+    if (!any_item(m)) return;
+    float4 rows[kLanes];
+    store4(rows, {0, kLanes}, v);
+    for_lanes(m, [&](int lane) { p[k[lane]] = rows[lane]; });
 }
 
 WEFT_INLINE whole splat_whole(int n) { return whole{} + n; }
@@ -59,50 +115,26 @@ WEFT_INLINE whole item_numbers(item i) { return i.first; }
 WEFT_INLINE real gather(const float* p, integer k) { return p[k]; }
 WEFT_INLINE whole gather_whole(const int* p, integer k) { return p[k]; }
 WEFT_INLINE void store_whole(int* p, item i, whole v) { p[i.first] = v; }
+WEFT_INLINE int largest_whole(whole w) { return w; }
+WEFT_INLINE float smallest_real(real r) { return r; }
+
+WEFT_INLINE void scatter_where(mask m, float* p, integer k, real v) {
+    if (m) p[k] = v;
+}
+WEFT_INLINE void scatter_whole_where(mask m, int* p, integer k, whole v) {
+    if (m) p[k] = v;
+}
+WEFT_INLINE void scatter4_where(mask m, float4* p, integer k, real4 v) {
+    if (m) scatter4(p, k, v);
+}
 
 #endif
 
 WEFT_INLINE integer address(whole w) { return w; }
 WEFT_INLINE whole load_whole(const int* p, item i) { return load_index(p, i); }
 
-template <class T, class Pack>
-WEFT_INLINE void scatter_lanes(mask m, T* p, integer k, const Pack& v) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (lane_of(m, lane)) p[lane_of(k, lane)] = lane_of(v, lane);
-    }
-}
-
-WEFT_INLINE void scatter_where(mask m, float* p, integer k, real v) { scatter_lanes(m, p, k, v); }
-WEFT_INLINE void scatter_whole_where(mask m, int* p, integer k, whole v) {
-    scatter_lanes(m, p, k, v);
-}
-
-WEFT_INLINE void scatter4_where(mask m, float4* p, integer k, real4 v) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (!lane_of(m, lane)) continue;
-        p[lane_of(k, lane)] = {lane_of(v.x, lane), lane_of(v.y, lane), lane_of(v.z, lane),
-                               lane_of(v.w, lane)};
-    }
-}
-
 WEFT_INLINE void store4_where(mask m, float4* p, item i, real4 v) {
     scatter4_where(m, p, address(item_numbers(i)), v);
-}
-
-WEFT_INLINE int largest_whole(whole w) {
-    int most = lane_of(w, 0);
-    for (int lane = 1; lane < kLanes; ++lane) {
-        if (lane_of(w, lane) > most) most = lane_of(w, lane);
-    }
-    return most;
-}
-
-WEFT_INLINE float smallest_real(real r) {
-    float least = lane_of(r, 0);
-    for (int lane = 1; lane < kLanes; ++lane) {
-        if (lane_of(r, lane) < least) least = lane_of(r, lane);
-    }
-    return least;
 }
 
 WEFT_INLINE float largest_real(real r) { return -smallest_real(-r); }
