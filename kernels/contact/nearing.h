@@ -5,8 +5,9 @@
 // patch has collected all that would be a pair of one of its items if it were nearer to it by the
 // patch's slack. Since then, two points of two patches have come nearer to each other by no more
 // than what their strides differed by in each substep, and their reaches have grown by no more than
-// the most that one has grown in each. Once that is more than the slack, the patch collects anew,
-// as it does where another patch is near, or one is not any more that it has taken for one.
+// the most that one has grown in each. Once that is more than the slack, the patch collects anew;
+// but not for another one while their bounds are apart, nor for one that comes near from afar until
+// it has used up what is between them.
 //
 // What is a pair is looked at in every substep (pairs.h), so how long candidates last decides what
 // that costs, and nothing else.
@@ -80,17 +81,44 @@ WEFT_INLINE whole patch_at(WEFT_GLOBAL const int* others, whole start, whole cou
     return on ? gather_whole(others, address(place)) : splat_whole(0x7fffffff);
 }
 
+/// How far apart two patches are at least, beyond their reaches; negative where their bounds
+/// overlap.
+WEFT_INLINE real clearance(real_bounds a, real_bounds b) {
+    const real slanted =
+        larger(box_distance(a.sums, b.sums), box_distance(a.differences, b.differences));
+    return larger(box_distance(a.box, b.box), splat(1.0f / WEFT_SLANT) * slanted);
+}
+
+/// Makes room for an entry at place k of the rows that `on` holds for.
+/// counts  how many entries they have; there is room for another one
+WEFT_INLINE void move_up(mask on, int k, whole start, whole counts, WEFT_GLOBAL int* others,
+                         WEFT_GLOBAL float* spent) {
+    const int end = largest_whole(on ? counts : splat_whole(0));
+    for (int n = end; n > k; --n) {
+        const mask moves = both(on, splat_whole(n) <= counts);
+        const integer from =
+            address(moves ? start + splat_whole(WEFT_ROW_STRIDE * (n - 1)) : start);
+        const integer to = address(moves ? start + splat_whole(WEFT_ROW_STRIDE * n) : start);
+        const whole other = gather_whole(others, from);
+        const real way = gather(spent, from);
+        scatter_whole_where(moves, others, to, other);
+        scatter_where(moves, spent, to, way);
+    }
+}
+
 /// Which patches have to collect their candidates anew, and with how much slack.
 /// low, high, slant_low, slant_high   bounds of patches, as enclose_patches leaves them
 /// stride_low, stride_high   [items] as enclose_strides leaves them
 /// near_rows, near_counts, near_others   the table of find_near_patches
-/// rows, counts, needs, others   a table: what was near when candidates were collected
+/// rows, counts, needs, others   a table: what was near when candidates were collected, or has come
+///             near since
 /// spent       [entries] how much nearer it may have come since [m]
 /// slacks      [items] how much nearer it may come [m]
 /// stamps      [items] when candidates were collected: not 0
 /// stale       [items] written: 1: to be collected anew
 /// epoch, age0 to age3   [1] their sum tells whether tables are still those of a stamp
 /// margin      as in find_near_patches [m]
+/// spare       by how much less than their bounds patches count as apart: for rounding [m]
 /// least, most slack [m]
 /// substeps    of the present speed that slack is for
 /// worthwhile  if the most slack would not last for so many of them, there is none: collecting with
@@ -104,8 +132,8 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
             WEFT_GLOBAL float* spent, WEFT_GLOBAL float* slacks, WEFT_GLOBAL int* stamps,
             WEFT_GLOBAL int* stale, WEFT_GLOBAL const int* epoch, WEFT_GLOBAL const int* age0,
             WEFT_GLOBAL const int* age1, WEFT_GLOBAL const int* age2, WEFT_GLOBAL const int* age3,
-            int item_count, float margin, float least, float most, float substeps, float worthwhile,
-            int instance) {
+            int item_count, float margin, float spare, float least, float most, float substeps,
+            float worthwhile, int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
@@ -114,64 +142,69 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
     const whole near_start = load_whole(near_rows, i);
     const whole near_count = load_whole(near_counts, i);
     const whole before = load_whole(counts, i);
-    const whole kept = stamp == now ? before : none;
+    whole kept = stamp == now ? before : none;
     whole is_stale = stamp == now ? none : one;
     if (any_item(kept + near_count + is_stale > none)) {
         const whole start = load_whole(rows, i);
         const whole room = load_whole(rows, column(i, item_count, 1));
         real slack = load(slacks, i);
         const real_strides own = {load4(stride_low, i), load4(stride_high, i)};
-        const real_bounds bounds = widened_bounds(
-            gather_bounds(low, high, slant_low, slant_high, item_numbers(i), item_count),
-            splat(margin));
+        const real_bounds bounds =
+            gather_bounds(low, high, slant_low, slant_high, item_numbers(i), item_count);
+        const real_bounds around = widened_bounds(bounds, splat(margin));
+        // Where nothing is near any more, nothing is kept.
+        is_stale = near_count > none ? is_stale : larger_whole(is_stale, smaller_whole(kept, one));
         whole n = none;
-        const int longest = largest_whole(kept);
-        for (int k = 0; k < longest; ++k) {
-            const mask on = splat_whole(k) < kept;
+        mask on = both(is_stale == none, larger_whole(kept, near_count) > none);
+        for (int k = 0; any_item(on); ++k) {
             const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
-            const whole listed = gather_whole(others, entry);
-            const whole other = on ? listed : none;
-            const real sum =
-                gather(spent, entry) + nearing(own, gather_strides(stride_low, stride_high, other));
-            scatter_where(on, spent, entry, sum);
-            const whole too_near = sum <= slack ? none : one;
-            // Those near that are not among them.
-            whole found = patch_at(near_others, near_start, near_count, n);
-            whole is_new = on ? (found < other ? one : none) : none;
-            while (any_item(is_new > none)) {
-                is_stale = is_new > none ? one : is_stale;
-                n = n + is_new;
-                found = patch_at(near_others, near_start, near_count, n);
-                is_new = on ? (found < other ? one : none) : none;
+            const whole listed = patch_at(others, start, kept, splat_whole(k));
+            const whole found = patch_at(near_others, near_start, near_count, n);
+            const mask comes = both(on, found < listed);
+            const mask enters = both(comes, kept < room);
+            if (any_item(enters)) {
+                move_up(enters, k, start, kept, others, spent);
+                scatter_whole_where(enters, others, entry, found);
+                kept = enters ? kept + one : kept;
             }
-            // One that is not near, but not for being far.
+            const whole other = on ? smaller_whole(listed, found) : none;
             const whole is_near = found == other ? one : none;
+            const real so_far = comes ? splat(WEFT_UNKNOWN_STRIDE) : gather(spent, entry);
+            real sum = so_far + nearing(own, gather_strides(stride_low, stride_high, other));
             whole is_passed_over = none;
-            if (any_item(both(on, is_near == none))) {
+            const whole seems_near = sum <= slack ? none : one;
+            const mask is_asked = both(on, one - is_near + seems_near > none);
+            if (any_item(is_asked)) {
                 const real_bounds its =
                     gather_bounds(low, high, slant_low, slant_high, other, item_count);
-                is_passed_over = bounds_overlap(bounds, its) ? one - is_near : none;
+                const real apart = clearance(bounds, its) - splat(spare);
+                sum = is_asked ? smaller(sum, slack - apart) : sum;
+                // It is not near, but not for being far.
+                is_passed_over = bounds_overlap(around, its) ? one - is_near : none;
             }
-            const whole has_changed = larger_whole(too_near, is_passed_over);
+            scatter_where(both(on, splat_whole(k) < kept), spent, entry, sum);
+            const whole lacks_room = comes ? (splat_whole(k) < kept ? none : one) : none;
+            const whole too_near = sum <= slack ? none : one;
+            const whole has_changed = larger_whole(too_near, is_passed_over) + lacks_room;
             is_stale = on ? larger_whole(is_stale, has_changed) : is_stale;
-            const whole next = found == other ? n + one : n;
-            n = on ? next : n;
+            n = n + is_near;
+            const whole left = larger_whole(kept - splat_whole(k + 1), near_count - n);
+            on = both(on, both(is_stale == none, left > none));
         }
-        is_stale = n < near_count ? one : is_stale;
         const mask anew = is_stale > none;
         if (any_item(anew)) {
             const whole count = anew ? near_count : none;
             const int length = largest_whole(count);
             real rate = zero;
             for (int k = 0; k < length; ++k) {
-                const mask on = splat_whole(k) < count;
+                const mask is_listed = splat_whole(k) < count;
                 const whole listed = patch_at(near_others, near_start, near_count, splat_whole(k));
-                const whole other = on ? listed : none;
+                const whole other = is_listed ? listed : none;
                 const real step = nearing(own, gather_strides(stride_low, stride_high, other));
-                rate = on ? larger(rate, step) : rate;
+                rate = is_listed ? larger(rate, step) : rate;
                 const integer entry =
-                    address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
-                const mask fits = both(on, splat_whole(k) < room);
+                    address(is_listed ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
+                const mask fits = both(is_listed, splat_whole(k) < room);
                 scatter_whole_where(fits, others, entry, other);
                 scatter_where(fits, spent, entry, zero);
             }
@@ -179,9 +212,9 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
             const real given = splat(worthwhile) * rate <= splat(most) ? wanted : zero;
             slack = anew ? given : slack;
             store(slacks, i, slack);
-            store_whole(counts, i, anew ? smaller_whole(near_count, room) : before);
             store_whole(stamps, i, anew ? now : stamp);
         }
+        store_whole(counts, i, anew ? smaller_whole(near_count, room) : kept);
     }
     store_whole(stale, i, is_stale);
     store_whole(needs, i,

@@ -49,6 +49,14 @@ WEFT_INLINE mask overlap(real_box a, real_box b) {
     return both(x, both(y, z));
 }
 
+/// How far apart two boxes are along the axis that tells most; negative where they overlap.
+WEFT_INLINE real box_distance(real_box a, real_box b) {
+    const real x = larger(b.low.x - a.high.x, a.low.x - b.high.x);
+    const real y = larger(b.low.y - a.high.y, a.low.y - b.high.y);
+    const real z = larger(b.low.z - a.high.z, a.low.z - b.high.z);
+    return larger(x, larger(y, z));
+}
+
 /// Lower by so much, and by more than what coordinates are rounded by.
 WEFT_INLINE real lowered(real x, real by) { return x - (by + splat(1e-6f) * larger(x, -x)); }
 

@@ -12,7 +12,7 @@ constexpr float kLeastSlack = 0.0625f;  ///< less would save few of them
 constexpr float kSpare = 1.0f / 64.0f;  ///< far above what distances are rounded by
 // In substeps; see kernels/contact/nearing.h.
 constexpr float kSubsteps = 8.0f;
-constexpr float kWorthwhile = 2.0f;
+constexpr float kWorthwhile = 1.0f;
 
 }  // namespace
 
@@ -62,12 +62,12 @@ void PairCandidates::add_enclose_accesses(Step::Adding& task, int first, int nex
 
 Launch PairCandidates::check(PairTable& near, PatchBounds bounds) {
     RowTable& kept = kept_.table;
-    return launch(kernels::check_candidates, s_.patches.segments, bounds.low, bounds.high,
-                  bounds.slant_low, bounds.slant_high, low_, high_, near.table.rows(),
-                  near.table.counts(), near.others, kept.rows(), kept.counts(), kept.needs(),
-                  kept_.others, spent_, slacks_, stamps_, stale_, epoch_, kept.age(),
-                  triangles_.table.age(), vertices_.table.age(), edges_.table.age(),
-                  kept.item_count(), margin(), least_, most_, kSubsteps, kWorthwhile, kInstance);
+    return launch(
+        kernels::check_candidates, s_.patches.segments, bounds.low, bounds.high, bounds.slant_low,
+        bounds.slant_high, low_, high_, near.table.rows(), near.table.counts(), near.others,
+        kept.rows(), kept.counts(), kept.needs(), kept_.others, spent_, slacks_, stamps_, stale_,
+        epoch_, kept.age(), triangles_.table.age(), vertices_.table.age(), edges_.table.age(),
+        kept.item_count(), margin(), spare_, least_, most_, kSubsteps, kWorthwhile, kInstance);
 }
 
 void PairCandidates::add_check_accesses(Step::Adding& task, int first_patch, int last_patch) {

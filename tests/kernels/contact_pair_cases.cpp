@@ -45,10 +45,11 @@ void check_case(KernelCase& c) {
     auto& age = c.add<int>("age", 1);
     epoch[0] = 2;
     age[0] = 2;
-    c.launch = launch(kernels::check_candidates, c.segments, boxes.low, boxes.high, slants.low,
-                      slants.high, strides.low, strides.high, near.rows, near.counts, near.others,
-                      kept.rows, kept.counts, kept.needs, kept.others, spent, slacks, stamps, stale,
-                      epoch, age, age, age, age, c.items, 0.1f, 0.1f, 20.0f, 8.0f, 2.0f, kInstance);
+    c.launch =
+        launch(kernels::check_candidates, c.segments, boxes.low, boxes.high, slants.low,
+               slants.high, strides.low, strides.high, near.rows, near.counts, near.others,
+               kept.rows, kept.counts, kept.needs, kept.others, spent, slacks, stamps, stale, epoch,
+               age, age, age, age, c.items, 0.1f, 0.01f, 0.1f, 20.0f, 8.0f, 2.0f, kInstance);
 }
 
 /// Rows of each item, some of them with entries.
