@@ -87,13 +87,14 @@ WEFT_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL con
                 for (int t = patch_triangles[q]; t < end; ++t) {
                     const float4 t_low = low[t];
                     const float4 t_high = high[t];
-                    if (!meets(all, t_low, t_high)) continue;
+                    const mask meet = both(mine, overlaps(box, t_low, t_high));
+                    if (!any_item(meet)) continue;
                     const int a = corners[t];
                     const int b = corners[t + triangle_count];
                     const int c = corners[t + 2 * triangle_count];
                     const mask apart = differs_from(knot, splat_whole(knots[a]),
                                                     splat_whole(knots[b]), splat_whole(knots[c]));
-                    const mask on = both(both(mine, overlaps(box, t_low, t_high)), apart);
+                    const mask on = both(meet, apart);
                     if (!any_item(on)) continue;
                     const closest_points closest = closest_vertex_triangle(
                         xyz(x), splat3(points[a]), splat3(points[b]), splat3(points[c]));
@@ -153,9 +154,10 @@ WEFT_KERNEL(collect_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL cons
                     const float out = x.w + 0.5f * halo;
                     const float4 v_low = {x.x - out, x.y - out, x.z - out, 0.0f};
                     const float4 v_high = {x.x + out, x.y + out, x.z + out, 0.0f};
-                    if (!meets(all, v_low, v_high)) continue;
+                    const mask meet = both(mine, overlaps(box, v_low, v_high));
+                    if (!any_item(meet)) continue;
                     const mask apart = differs_from(splat_whole(knots[v]), knot_a, knot_b, knot_c);
-                    const mask on = both(both(mine, overlaps(box, v_low, v_high)), apart);
+                    const mask on = both(meet, apart);
                     if (!any_item(on)) continue;
                     const closest_points closest = closest_vertex_triangle(splat3(x), a, b, c);
                     const real square = near_square(splat(x.w), top.w, splat(range) + slack);
@@ -229,14 +231,15 @@ WEFT_KERNEL(collect_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const i
                 for (int e = patch_edges[q]; e < end; ++e) {
                     const float4 e_low = low[e];
                     const float4 e_high = high[e];
-                    if (!meets(all, e_low, e_high)) continue;
+                    const mask meet = both(mine, overlaps(box, e_low, e_high));
+                    if (!any_item(meet)) continue;
                     const int b = ends[e];
                     const int c = ends[e + item_count];
                     const whole u = splat_whole(knots[b]);
                     const whole v = splat_whole(knots[c]);
                     const mask apart =
                         both(both(knot_a != u, knot_a != v), both(knot_b != u, knot_b != v));
-                    const mask on = both(both(mine, overlaps(box, e_low, e_high)), apart);
+                    const mask on = both(meet, apart);
                     if (!any_item(on)) continue;
                     const real square = near_square(top.w, splat(e_high.w), splat(range) + slack);
                     const mask far =

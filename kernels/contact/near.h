@@ -116,8 +116,6 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
     const real_bounds bounds = widened_bounds(
         gather_bounds(low, high, slant_low, slant_high, self, item_count), splat(margin));
     const float_box all = around_all(bounds.box);
-    const float_box all_sums = around_all(bounds.sums);
-    const float_box all_differences = around_all(bounds.differences);
     const real_leaning own = {load4(tilts, i), load4(drifts, i)};
     const whole own_group = load_whole(group_of, i);
     const int first_group = group_of[i.first];
@@ -140,19 +138,11 @@ WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
                 if (!any_item(open > splat_whole(0))) continue;
                 const int end = group_begin[g + 1];
                 for (int p = group_begin[g]; p < end; ++p) {
-                    const float4 p_low = low[p];
-                    const float4 p_high = high[p];
-                    if (!meets(all, p_low, p_high)) continue;
-                    const float4 s_low = slant_low[p];
-                    const float4 s_high = slant_high[p];
-                    if (!meets(all_sums, s_low, s_high)) continue;
-                    const float4 d_low = slant_low[item_count + p];
-                    const float4 d_high = slant_high[item_count + p];
-                    if (!meets(all_differences, d_low, d_high)) continue;
-                    mask on = both(overlaps(bounds.box, p_low, p_high),
-                                   both(overlaps(bounds.sums, s_low, s_high),
-                                        overlaps(bounds.differences, d_low, d_high)));
-                    on = both(on, open > splat_whole(0));
+                    mask on = both(open > splat_whole(0), overlaps(bounds.box, low[p], high[p]));
+                    if (!any_item(on)) continue;
+                    on = both(on, overlaps(bounds.sums, slant_low[p], slant_high[p]));
+                    on = both(on, overlaps(bounds.differences, slant_low[item_count + p],
+                                           slant_high[item_count + p]));
                     if (!any_item(on)) continue;
                     if (touch_self == 0) on = both(on, body != splat_whole(bodies[p]));
                     if (held[p] != 0) on = both(on, is_held == splat_whole(0));
