@@ -150,6 +150,7 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             c.ahead = c.range;
             lever = add(lever, turned);
         }
+        if (!any_item(both(on, is_pushed(c)))) continue;
         const derivatives push = add_push(zero_derivatives(), c, on, no_way, friction, creep);
         const real outside = code > opposite + opposite ? splat(1.0f) : splat(0.0f);
         if (is_strain)

@@ -60,11 +60,15 @@ WEFT_KERNEL(multiply_contacts, WEFT_GLOBAL const float4* directions, WEFT_GLOBAL
             const mask on = splat_whole(k) < count;
             const integer entry =
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const real curvature = gather(curvatures, entry);
+            const real grip = gather(grips, entry);
+            // Most are not pushed; see is_pushed().
+            if (!any_item(both(on, larger(curvature, grip) > zero))) continue;
             const contact_entry c = load_contact(directions, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
             const real own = on ? c.own : zero;
-            sum = add_scaled(sum, c.normal, own * (gather(curvatures, entry) * c.gap));
-            sum = add_scaled(sum, c.slip, own * gather(grips, entry));
+            sum = add_scaled(sum, c.normal, own * (curvature * c.gap));
+            sum = add_scaled(sum, c.slip, own * grip);
         }
         store_product(products, i, vertex_count, sum);
     }

@@ -92,9 +92,14 @@ WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const f
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
             const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
+            const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
+            // What neither pushes nor has pushed does not change.
+            if (!any_item(both(on, (c.gap < c.range ? splat(1.0f) : multiplier) > zero))) {
+                if (iteration == 0) scatter_where(on, multipliers, entry, zero);
+                continue;
+            }
             const real lightness =
                 lightness_of(snapshot, corner0, corner1, corner2, corner3, weights, entry);
-            const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
             const real change = change_of_multiplier(c, multiplier, lightness, inverse_h2);
             scatter_where(on, multipliers, entry, multiplier + change);
             push = add_scaled(push, c.normal, on ? c.own * change : zero);
@@ -146,14 +151,19 @@ WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float
             const mask on = splat_whole(k) < count;
             const integer entry =
                 address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));
+            const real cap = splat(friction) * gather(multipliers, entry);
+            // Nor does what neither is pressed nor has rubbed.
+            if (!any_item(both(on, larger(cap, dot3(rub, rub)) > zero))) {
+                if (iteration == 0) scatter4_where(on, rubs, entry, with_w(none, zero));
+                continue;
+            }
             const contact_entry c =
                 with_earlier_slip(load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                normals, weights, measures, entry),
                                   slips, entry);
             const real lightness =
                 lightness_of(snapshot, corner0, corner1, corner2, corner3, weights, entry);
-            const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));
-            const real cap = splat(friction) * gather(multipliers, entry);
             const real3 next = rubbed(c, rub, cap, lightness, creep);
             scatter4_where(on, rubs, entry, with_w(next, zero));
             push = add_scaled(push, subtract(next, rub), on ? c.own : zero);
