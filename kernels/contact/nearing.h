@@ -162,6 +162,7 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
             const whole found = patch_at(near_others, near_start, near_count, n);
             const mask comes = both(on, found < listed);
             const mask enters = both(comes, kept < room);
+            const whole lacks_room = comes ? (enters ? none : one) : none;
             if (any_item(enters)) {
                 move_up(enters, k, start, kept, others, spent);
                 scatter_whole_where(enters, others, entry, found);
@@ -182,8 +183,7 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
                 // It is not near, but not for being far.
                 is_passed_over = bounds_overlap(around, its) ? one - is_near : none;
             }
-            scatter_where(both(on, splat_whole(k) < kept), spent, entry, sum);
-            const whole lacks_room = comes ? (splat_whole(k) < kept ? none : one) : none;
+            scatter_where(both(on, lacks_room == none), spent, entry, sum);
             const whole too_near = sum <= slack ? none : one;
             const whole has_changed = larger_whole(too_near, is_passed_over) + lacks_room;
             is_stale = on ? larger_whole(is_stale, has_changed) : is_stale;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "runtime/executor.h"
@@ -267,22 +268,26 @@ TEST_P(ContactPairsOf, AreTheSameWithEveryRoom) {
 }
 
 /// Bodies that drift, turn and tremble by about `speed` thicknesses per step, and may get farther
-/// or less far.
+/// or less far; some come back from there, so that others are near that were before.
 class Motion {
 public:
-    Motion(const ContactMesh& mesh, float speed)
-        : mesh_(mesh), by_(speed * mesh.thickness), anchors_(mesh.anchors) {}
+    Motion(const ContactMesh& mesh, float speed, int steps_to_turn)
+        : mesh_(mesh),
+          by_(speed * mesh.thickness),
+          steps_to_turn_(steps_to_turn),
+          anchors_(mesh.anchors) {}
 
     std::span<const float4> next() {
+        if (++step_ % steps_to_turn_ == 0) by_ = -by_;
         for (std::size_t v = 0; v < anchors_.size(); ++v) {
-            const float4 shake = random_.point(0.3f * by_);
+            const float4 shake = random_.point(0.3f * std::abs(by_));
             const float4& start = mesh_.anchors[v];
             const bool is_upper = start.y > 0.1f;
             float4& x = anchors_[v];
             x.x += shake.x + (is_upper ? by_ : -by_) * (1.0f + 0.1f * start.z);
             x.y += shake.y - (is_upper ? 0.2f * by_ : 0.0f);
             x.z += shake.z + 0.1f * by_ * start.x;
-            x.w = std::max(start.w, x.w + random_.real(-0.2f, 0.25f) * by_);
+            x.w = std::max(start.w, x.w + random_.real(-0.2f, 0.25f) * std::abs(by_));
         }
         return anchors_;
     }
@@ -295,17 +300,26 @@ public:
 private:
     const ContactMesh& mesh_;
     float by_;
+    int steps_to_turn_;
+    int step_ = 0;
     Random random_{7};
     std::vector<float4> anchors_;
 };
 
-constexpr float kSpeeds[] = {0.0f, 1e-3f, 0.02f, 0.1f, 1.0f};
+struct Pace {
+    float speed;
+    int steps_to_turn;
+};
+
+constexpr int kNever = 1000;
+constexpr Pace kPaces[] = {{0.0f, kNever}, {1e-3f, kNever}, {0.02f, kNever}, {0.1f, kNever},
+                           {1.0f, kNever}, {0.1f, 7},       {0.4f, 7}};
 
 /// What has been kept since earlier substeps saves work, and changes nothing: also where other
 /// devices go on with it.
 TEST_P(ContactPairsOf, AreTheSameFromCandidatesThatWereKept) {
-    for (const float speed : kSpeeds) {
-        Motion motion(mesh_, speed);
+    for (const auto& [speed, steps_to_turn] : kPaces) {
+        Motion motion(mesh_, speed, steps_to_turn);
         Detection run(mesh_, cpus(2), 8);
         std::pair<int, int> late;
         for (int step = 0; step < 24; ++step) {
@@ -340,7 +354,7 @@ TEST_P(ContactPairsOf, AreCollectedAnewWhereAsked) {
 
 TEST_P(ContactPairsOf, AreKeptByDiscreteDevicesAsWell) {
     if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
-    Motion motion(mesh_, 0.05f);
+    Motion motion(mesh_, 0.05f, kNever);
     Devices devices = cpus(1);
     add_opencl(devices, MemoryModel::kDiscrete, 8, false);
     Detection run(mesh_, std::move(devices), 8);
