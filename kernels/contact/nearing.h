@@ -7,7 +7,9 @@
 // than what their strides differed by in each substep, and their reaches have grown by no more than
 // the most that one has grown in each. Once that is more than the slack, the patch collects anew;
 // but not for another one while their bounds are apart, nor for one that comes near from afar until
-// it has used up what is between them.
+// it has used up what is between them. And it does where another one is passed over that it has
+// taken for near (near.h), or no longer is: what pairs they have is not a matter of how far they
+// are.
 //
 // What is a pair is looked at in every substep (pairs.h), so how long candidates last decides what
 // that costs, and nothing else.
@@ -106,6 +108,31 @@ WEFT_INLINE void move_up(mask on, int k, whole start, whole counts, WEFT_GLOBAL 
     }
 }
 
+/// Rows of what is near, of which nothing has come nearer yet, as far as there is room; and by how
+/// much something of it does in this substep at most [m].
+/// near_start, near_counts, near_others   what is near; 0 where rows stay as they are
+/// start, room, others, spent   of the rows
+WEFT_INLINE real keep_what_is_near(real_strides own, WEFT_GLOBAL const float4* stride_low,
+                                   WEFT_GLOBAL const float4* stride_high, whole near_start,
+                                   whole near_counts, WEFT_GLOBAL const int* near_others,
+                                   whole start, whole room, WEFT_GLOBAL int* others,
+                                   WEFT_GLOBAL float* spent) {
+    const int longest = largest_whole(near_counts);
+    real rate = splat(0.0f);
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < near_counts;
+        const whole listed = patch_at(near_others, near_start, near_counts, splat_whole(k));
+        const whole other = on ? listed : splat_whole(0);
+        const real step = nearing(own, gather_strides(stride_low, stride_high, other));
+        rate = on ? larger(rate, step) : rate;
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
+        const mask fits = both(on, splat_whole(k) < room);
+        scatter_whole_where(fits, others, entry, other);
+        scatter_where(fits, spent, entry, splat(0.0f));
+    }
+    return rate;
+}
+
 /// Which patches have to collect their candidates anew, and with how much slack.
 /// low, high, slant_low, slant_high   bounds of patches, as enclose_patches leaves them
 /// stride_low, stride_high   [items] as enclose_strides leaves them
@@ -134,7 +161,6 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
             WEFT_GLOBAL const int* age1, WEFT_GLOBAL const int* age2, WEFT_GLOBAL const int* age3,
             int item_count, float margin, float spare, float least, float most, float substeps,
             float worthwhile, int instance) {
-    const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
     const whole now = splat_whole(epoch[0] + age0[0] + age1[0] + age2[0] + age3[0]);
@@ -193,23 +219,11 @@ WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const f
         }
         const mask anew = is_stale > none;
         if (any_item(anew)) {
-            const whole count = anew ? near_count : none;
-            const int length = largest_whole(count);
-            real rate = zero;
-            for (int k = 0; k < length; ++k) {
-                const mask is_listed = splat_whole(k) < count;
-                const whole listed = patch_at(near_others, near_start, near_count, splat_whole(k));
-                const whole other = is_listed ? listed : none;
-                const real step = nearing(own, gather_strides(stride_low, stride_high, other));
-                rate = is_listed ? larger(rate, step) : rate;
-                const integer entry =
-                    address(is_listed ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
-                const mask fits = both(is_listed, splat_whole(k) < room);
-                scatter_whole_where(fits, others, entry, other);
-                scatter_where(fits, spent, entry, zero);
-            }
+            const real rate = keep_what_is_near(own, stride_low, stride_high, near_start,
+                                                anew ? near_count : none, near_others, start, room,
+                                                others, spent);
             const real wanted = smaller(larger(splat(substeps) * rate, splat(least)), splat(most));
-            const real given = splat(worthwhile) * rate <= splat(most) ? wanted : zero;
+            const real given = splat(worthwhile) * rate <= splat(most) ? wanted : splat(0.0f);
             slack = anew ? given : slack;
             store(slacks, i, slack);
             store_whole(stamps, i, anew ? now : stamp);

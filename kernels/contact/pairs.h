@@ -35,8 +35,8 @@ WEFT_INLINE mask is_pair(real square, whole pushes, pair_ranges r) {
 }
 
 /// Whether something is to be done about the pairs of these patches: of those that had no patch
-/// near to them, and have none, they are known. (A patch that has one near to it either had one
-/// before, or is stale.)
+/// near to them, and have none, they are known. (A patch that has one near to it keeps one, or is
+/// stale.)
 WEFT_INLINE int has_work(WEFT_GLOBAL const int* kept_counts, WEFT_GLOBAL const int* stale,
                          int first_patch, int last_patch, int instance) {
     return instance == 0 || any_of_patches(kept_counts, first_patch, last_patch) ||

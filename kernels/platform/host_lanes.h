@@ -10,11 +10,6 @@ using whole = integer;
 
 using mask = integer;  ///< -1 or 0, as comparisons of packs give it
 
-template <class Pack>
-WEFT_INLINE auto lane_of(const Pack& pack, int lane) {
-    return pack[lane];
-}
-
 typedef long long quarters __attribute__((vector_size(32)));
 
 WEFT_INLINE bool any_item(mask m) {
@@ -103,11 +98,6 @@ WEFT_INLINE void store_whole(int* p, item i, whole v) {
 #else
 
 using mask = bool;
-
-template <class Value>
-WEFT_INLINE Value lane_of(Value value, int) {
-    return value;
-}
 
 WEFT_INLINE bool any_item(mask m) { return m; }
 WEFT_INLINE whole splat_whole(int n) { return n; }

@@ -121,6 +121,11 @@ WEFT_INLINE real3 rubbed(contact_entry c, real3 rub, real cap, real lightness, f
     return scale(next, cap / larger(length3(next), larger(cap, splat(1e-30f))));
 }
 
+/// Of a vector's components, without their signs. (Squares of small ones would be 0.)
+WEFT_INLINE real largest_part(real3 v) {
+    return larger(larger(larger(v.x, -v.x), larger(v.y, -v.y)), larger(v.z, -v.z));
+}
+
 /// Holds back what slides, across the normals: behind project_contacts, from the same snapshot, by
 /// how hard it has made contacts press. What a vertex' contacts have of its mass they have in each
 /// direction. Over all vertices.
@@ -154,7 +159,7 @@ WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float
             const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));
             const real cap = splat(friction) * gather(multipliers, entry);
             // Nor does what neither is pressed nor has rubbed.
-            if (!any_item(both(on, larger(cap, dot3(rub, rub)) > zero))) {
+            if (!any_item(both(on, larger(cap, largest_part(rub)) > zero))) {
                 if (iteration == 0) scatter4_where(on, rubs, entry, with_w(none, zero));
                 continue;
             }
