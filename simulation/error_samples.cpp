@@ -35,9 +35,6 @@ double cost_of_iteration(const SolverSettings& solver) {
 /// Further stretched than what there is already.
 bool is_stretched(double strain, double known) { return strain > 1.5 * known; }
 
-/// What begins taut gives way first, and moves then; few steps are all the way that there is.
-constexpr double kFewSteps = 10.0;
-
 }  // namespace
 
 std::vector<char> held_by_obstacles(const Model& model, double time) {
@@ -65,11 +62,13 @@ ErrorSamples::ErrorSamples(const Model& model, int threads) : threads_(threads),
 void ErrorSamples::restart(const Model& model, double time) {
     start_ = time;
     motion_ = UnsolvedMotion(model);
+    noted_ = places_looked_at_ = 0;
     first_strain_ = last_strain_ = most_strain_ = model.edges->strain(model.positions->span()).rms;
 }
 
 void ErrorSamples::note(const Model& model, double strain) {
     last_strain_ = strain;
+    ++noted_;
     motion_.note(model);
     ends_.reset();
 }
@@ -104,10 +103,23 @@ void ErrorSamples::begin(const Model& model, double time) {
 }
 
 std::optional<Alarm> ErrorSamples::doubt(const Model& model, const Watch::Look& look,
-                                         const StepEstimate& estimate) const {
+                                         const StepEstimate& estimate) {
     auto alarm = doubt_of_strain(look, estimate);
-    if (!alarm) alarm = doubt_of_motion(model, look.strain.rms);
-    return alarm ? alarm : doubt_of_led_solids(model, estimate.relative_error);
+    if (alarm || is_told_ || is_early(model)) return alarm;
+    alarm = doubt_of_motion(model, look.strain.rms);
+    if (!alarm) alarm = doubt_of_led_solids(model, estimate.relative_error);
+    return alarm ? alarm : doubt_of_places(model);
+}
+
+/// What begins taut gives way first, and moves then; few steps are all the way that there is. And
+/// something that falls has to have fallen by a good part of the size of everything.
+bool ErrorSamples::is_early(const Model& model) const {
+    constexpr double kFewSteps = 10.0;
+    constexpr double kFallen = 0.25;
+    const double end = ends_->time + model.h;
+    const double time = end - start_;
+    const double fallen = 0.5 * length(model.scene.gravity_at(end)) * time * time;
+    return time < kFewSteps * model.h || fallen < kFallen * motion_.size();
 }
 
 std::optional<Alarm> ErrorSamples::doubt_of_strain(const Watch::Look& look,
@@ -129,11 +141,6 @@ std::optional<Alarm> ErrorSamples::doubt_of_strain(const Watch::Look& look,
 }
 
 std::optional<Alarm> ErrorSamples::doubt_of_motion(const Model& model, double strain) const {
-    constexpr double kFallen = 0.25;  // of the size of everything
-    const double end = ends_->time + model.h;
-    const double time = end - start_;
-    const double fallen = 0.5 * length(model.scene.gravity_at(end)) * time * time;
-    if (is_told_ || time < kFewSteps * model.h || fallen < kFallen * motion_.size()) return {};
     // xpbd's contacts are constraints of their own, which E does not have.
     const bool is_comparable = !model.scene.contact || model.scene.solver.method != Method::kXpbd;
     const auto found = is_comparable ? motion_.find(model, error_->solved()) : std::nullopt;
@@ -171,14 +178,42 @@ std::optional<Alarm> ErrorSamples::doubt_of_led_solids(const Model& model,
     constexpr double kUnsolved = 0.6;
     const Scene& scene = model.scene;
     const bool are_solids = !scene.solids.empty() && scene.cloths.empty() && !scene.contact;
-    if (is_told_ || !model.moving_pins || !are_solids) return std::nullopt;
-    if (ends_->time + model.h - start_ < kFewSteps * model.h) return std::nullopt;
+    if (!model.moving_pins || !are_solids) return std::nullopt;
     if (scene.solver.method == Method::kXpbd || relative_error < kUnsolved) return std::nullopt;
     return Alarm{Alarm::Kind::kDoubt,
                  fmt::format("solids are led by pins in steps that are hardly solved: a relative "
                              "error of {:.2g}, where 1 is no better than motion without material",
                              relative_error),
                  {}};
+}
+
+/// Where bodies would be, if what the step leaves undone acted on. That takes several times what an
+/// estimate takes, so it is looked at in a few frames only, and in the last one.
+std::optional<Alarm> ErrorSamples::doubt_of_places(const Model& model) {
+    constexpr int kSeldom = 4;
+    constexpr int kFirst = 100;
+    constexpr double kPeriods = 3.0;
+    constexpr double kHidden = 0.3;  // of what is told
+    const double end = ends_->time + model.h;
+    const bool is_last = end + 0.5 * model.h > model.scene.frames * model.scene.dt;
+    if (!is_last && noted_ < std::max(kFirst, kSeldom * places_looked_at_)) return std::nullopt;
+    const double g = length(model.scene.gravity_at(end));
+    const auto pushed = motion_.pushed(model, error_->solved(), g * model.h * model.h);
+    if (!pushed) return std::nullopt;
+    places_looked_at_ = noted_;
+    // What sags by that far swings in about sqrt(way / g).
+    const double time = kPeriods * std::sqrt(pushed->most / g);
+    const auto settled = error_->settled(*ends_, std::max(1.0, time / model.h),
+                                         kHidden * UnsolvedMotion::hidden(pushed->least));
+    const auto found = motion_.find_misplaced(model, settled, g);
+    if (!found) return std::nullopt;
+    const BodyRange& body = model.bodies[found->body];
+    return Alarm{
+        Alarm::Kind::kDoubt,
+        fmt::format("the middle of {} '{}' has been {:.2g} m from its start, and is {:.2g} "
+                    "m off by what each step leaves undone",
+                    body.kind, body.name, found->moved, found->undone),
+        {}};
 }
 
 std::optional<StepEstimate> ErrorSamples::end(const Model& model,

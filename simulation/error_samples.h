@@ -36,9 +36,9 @@ public:
     void note(const Model& model, double strain);
     /// What the last estimate says against the state, where the model is: strain that is plain to
     /// see and that a solved step would not have left, as it is not the material that gives way
-    /// then; or motion that is of this kind.
+    /// then; or motion, or a place, that is of this kind.
     std::optional<Alarm> doubt(const Model& model, const Watch::Look& look,
-                               const StepEstimate& estimate) const;
+                               const StepEstimate& estimate);
     /// A doubt was told, and the run goes on: what has sagged stays there, and is told once.
     void told() { is_told_ = true; }
 
@@ -52,11 +52,15 @@ private:
                                          const StepEstimate& estimate) const;
     std::optional<Alarm> doubt_of_motion(const Model& model, double strain) const;
     std::optional<Alarm> doubt_of_led_solids(const Model& model, double relative_error) const;
+    std::optional<Alarm> doubt_of_places(const Model& model);
+    bool is_early(const Model& model) const;
 
     int threads_;
     double start_ = 0.0;  ///< [s]
     UnsolvedMotion motion_;
     bool is_told_ = false;
+    int noted_ = 0;                     ///< frames
+    int places_looked_at_ = 0;          ///< when: noted frames
     std::unique_ptr<StepError> error_;  ///< null: not needed yet
     bool is_begun_ = false;
     double first_strain_ = 0.0, last_strain_ = 0.0;  ///< of edges, RMS

@@ -82,11 +82,15 @@ std::vector<float> StepError::solved() const {
 std::optional<StepEstimate> StepError::estimate(const SubstepEnds& ends) {
     start_at(ends);
     const auto estimate = estimate_begun();
+    rest();
+    return estimate;
+}
+
+void StepError::rest() {
     newton_->rest();
     for (auto* list : {&targets_, &reached_, &before_}) give_back(*list);
     give_back(contacts_);
     give_back_freed();
-    return estimate;
 }
 
 std::optional<StepEstimate> StepError::estimate_begun() {
@@ -117,10 +121,14 @@ std::optional<StepEstimate> StepError::estimate_begun() {
     return StepEstimate{error, left};
 }
 
-void StepError::start_at(const SubstepEnds& ends) {
+/// longer: what the substep left undone is the same, so x~ is the farther away the less inertia
+/// holds.
+void StepError::start_at(const SubstepEnds& ends, double longer) {
     model_->place(ends.time);
     const Vec3 g = to_vec3((*model_->gravity)[0]);
     const double h = model_->h;
+    const double less = longer * longer;
+    inertia_ = 1.0 / (less * h * h);
     take_contacts(ends.contacts);
     targets_.resize(inverse_masses_.size());
     reached_.resize(inverse_masses_.size());
@@ -130,22 +138,22 @@ void StepError::start_at(const SubstepEnds& ends) {
             return Vec3{xyz[3 * own], xyz[3 * own + 1], xyz[3 * own + 2]};
         };
         const bool is_held = !ends.held.empty() && ends.held[own] != 0;
-        const float w = is_held ? 0.0f : inverse_masses_[v];
+        const double w = is_held ? 0.0 : less * static_cast<double>(inverse_masses_[v]);
         const Vec3 to = read(ends.reached);
         const Vec3 fall = read(ends.positions) + h * (read(ends.velocities) + h * g);
-        reached_[v] = to_float4(to, static_cast<double>(w));
-        targets_[v] = to_float4(w > 0.0f ? fall : to);
+        const Vec3 target = longer == 1.0 ? fall : to + less * (fall - to);
+        reached_[v] = to_float4(to, w);
+        targets_[v] = to_float4(w > 0.0 ? target : to);
     }
 }
 
 double StepError::energy_at(std::span<const float4> x) const {
-    const double inverse_h2 = 1.0 / (model_->h * model_->h);
     double sum = sum_of_blocks(static_cast<int>(x.size()), [&](int begin, int end) {
         double part = 0.0;
         for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
             if (reached_[v].w <= 0.0f) continue;
             const Vec3 off = to_vec3(x[v]) - to_vec3(targets_[v]);
-            part += 0.5 * model_->masses[v] * inverse_h2 * dot(off, off);
+            part += 0.5 * model_->masses[v] * inertia_ * dot(off, off);
         }
         return part;
     });
@@ -191,11 +199,15 @@ double StepError::energy_of_rounding(double reached) const {
     return (energy_at(up) + energy_at(down) - 2.0 * reached) / 32.0;
 }
 
-/// What the minimum of E is, given E at x.
-double StepError::refine(double reached) {
+void StepError::begin() {
     newton_->begin(reached_, targets_, contacts_);
     for (RowTable* table : newton_->tables()) executor_->rebind(table->resized_buffers());
     if (rubs_) before_ = reached_;
+}
+
+/// What the minimum of E is, given E at x.
+double StepError::refine(double reached) {
+    begin();
     double least = reached;
     double last = 0.0;
     double left = 0.0;
@@ -225,6 +237,37 @@ double StepError::gain_of_iteration(double least) {
     });
     if (rubs_) std::ranges::copy(newton_->positions(), before_.begin());
     return std::max(from - to, 0.0);
+}
+
+/// What is soft bends far, so it takes many iterations, some of them too long steps at first, which
+/// are taken back.
+std::vector<float> StepError::settled(const SubstepEnds& ends, double longer, double visible) {
+    constexpr int kWhiles = 8;
+    constexpr int kIterations = 5;
+    constexpr double kFarther = 1.1;
+    start_at(ends, longer);
+    begin();
+    executor_->run(iterations_.front().step, iterations_.front().plan, 1);
+    const Iteration& iteration = iterations_.back();
+    double way = 0.0;
+    for (int i = 0; i < kWhiles; ++i) {
+        for (int k = 0; k < kIterations; ++k) executor_->run(iteration.step, iteration.plan, 1);
+        const double before = way;
+        way = farthest_way();
+        if (way < std::max(visible, kFarther * before)) break;
+    }
+    rest();
+    return solved();
+}
+
+/// Of a vertex, since the start [m].
+double StepError::farthest_way() const {
+    double most = 0.0;
+    const auto now = newton_->positions();
+    for (std::size_t v = 0; v < reached_.size(); ++v) {
+        most = std::max(most, length(to_vec3(now[v]) - to_vec3(reached_[v])));
+    }
+    return most;
 }
 
 }  // namespace weft

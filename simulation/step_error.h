@@ -54,19 +54,26 @@ public:
     /// Where the last estimate's substep would have led to, xyz in scene order, counted from the
     /// model's origin [m].
     std::vector<float> solved() const;
+    /// Likewise, where what the substep left undone would lead if it acted on for `longer` times
+    /// its length: inertia holds as in a step so long, and soft bodies go far. Ends early where
+    /// nothing seems to get as far as `visible` [m].
+    std::vector<float> settled(const SubstepEnds& ends, double longer, double visible);
     /// Its relative error alone.
     std::optional<double> of(const SubstepEnds& ends);
 
 private:
     struct Iteration;
     std::optional<StepEstimate> estimate_begun();
-    void start_at(const SubstepEnds& ends);
+    void start_at(const SubstepEnds& ends, double longer = 1.0);
+    void rest();
     double energy_at(std::span<const float4> positions) const;
     double energy_of_rounding(double reached) const;
     void take_contacts(const std::vector<FrozenContact>& contacts);
     void press_as_at(std::span<const float4> positions);
     double contact_energy_at(std::span<const float4> positions) const;
+    void begin();
     double refine(double reached);
+    double farthest_way() const;
     double gain_of_iteration(double least);
 
     HostThreads threads_;
@@ -78,7 +85,9 @@ private:
     std::vector<float> inverse_masses_;  ///< [vertices] of the model
 
     // Of the estimate at hand; empty between two.
-    std::vector<float4> targets_, reached_;  ///< [vertices] xyz, w = 1/mass, 0 for held ones
+    double inertia_ = 0.0;  ///< of a unit of mass [1/s^2]
+    /// [vertices] xyz, w as if masses made this inertia in a step of the model, 0 for held ones
+    std::vector<float4> targets_, reached_;
     std::vector<FrozenContact> contacts_;
     bool rubs_ = false;  ///< some of them
     /// [vertices] where the iteration before ended, where that matters

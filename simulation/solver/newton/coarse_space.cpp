@@ -45,7 +45,8 @@ std::vector<CoarseSpace::Pair> CoarseSpace::pairs_of(const Model& model,
 }
 
 CoarseSpace::CoarseSpace(Model& model, Aggregates given, const std::vector<Pair>& pairs)
-    : aggregates_(std::move(given)),
+    : h2_(model.h * model.h),
+      aggregates_(std::move(given)),
       pair_count_(static_cast<int>(pairs.size())),
       width_([&] {
           int most = 0;
@@ -106,8 +107,7 @@ void CoarseSpace::fill_members(const Model& model) {
             (*shares_)[rows_->entry(a, static_cast<int>(k))] = 1.0f;
             mass += model.masses[at(members[k])];
         }
-        // An empty one has no force, and any matrix will do.
-        inertia_[at(a)] = members.empty() ? 1.0f : static_cast<float>(mass / (model.h * model.h));
+        inertia_[at(a)] = inertia_of(mass);
         // What fills a row up must lie in the strip: tasks read no other residuals.
         const int own = model.strips.begin[at(a / aggregates_.per_strip)];
         for (int k = static_cast<int>(members.size()); k < rows_->length(a); ++k) {
@@ -116,14 +116,23 @@ void CoarseSpace::fill_members(const Model& model) {
     }
 }
 
+/// An empty one has no force, and any matrix will do.
+float CoarseSpace::inertia_of(double mass) const {
+    return mass > 0.0 ? static_cast<float>(mass / h2_) : 1.0f;
+}
+
 void CoarseSpace::hold(std::span<const float4> positions) {
     for (int a = 0; a < aggregates_.count(); ++a) {
         const auto& members = aggregates_.members[at(a)];
+        double mass = 0.0;
         for (std::size_t k = 0; k < members.size(); ++k) {
-            const bool is_free = positions[at(members[k])].w > 0.0f;
+            const float w = positions[at(members[k])].w;
+            const bool is_free = w > 0.0f;
+            if (is_free) mass += 1.0 / static_cast<double>(w);
             aggregate_of_[at(members[k])] = is_free ? a : aggregates_.count();
             (*shares_)[rows_->entry(a, static_cast<int>(k))] = is_free ? 1.0f : 0.0f;
         }
+        inertia_[at(a)] = inertia_of(mass);
     }
 }
 

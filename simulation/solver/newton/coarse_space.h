@@ -16,7 +16,8 @@ class CoarseSpace {
 public:
     CoarseSpace(Model& model, Aggregates aggregates);
 
-    /// Vertices of no inverse mass take no part from now on, besides those that the model holds.
+    /// Inertia is that of these inverse masses (w) from now on; vertices of none take no part,
+    /// besides those that the model holds.
     void hold(std::span<const float4> positions);
 
     /// To make it anew: the blocks of each strip's aggregates,
@@ -52,9 +53,11 @@ private:
     void fill_members(const Model& model);
     void fill_places(const Model& model);
     void add_family(ElementFamily& family, const std::vector<Pair>& pairs);
+    float inertia_of(double mass) const;
     int unknowns() const { return 3 * aggregates_.count(); }
     int inverse_begin(int strip) const { return 3 * unknowns() * aggregates_.per_strip * strip; }
 
+    double h2_;  ///< [s^2]
     Aggregates aggregates_;
     int pair_count_;
     int width_;                     ///< of the band

@@ -20,7 +20,8 @@ public:
     virtual std::vector<RowTable*> tables() = 0;
 
     /// Starts from these positions, and goes to the minimum of E for these x~ and these contacts
-    /// (corners in new order). Vertices of no inverse mass are held, whatever the model says.
+    /// (corners in new order). Inertia is that of their inverse masses; vertices of none are held,
+    /// whatever the model says.
     virtual void begin(std::span<const float4> positions, std::span<const float4> targets,
                        std::span<const FrozenContact> contacts) = 0;
     /// One iteration with so many conjugate gradients. is_first: after begin()
