@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/borne_bodies.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/model.h"
 
@@ -198,14 +199,15 @@ std::optional<Alarm> ErrorSamples::doubt_of_places(const Model& model) {
     const bool is_last = end + 0.5 * model.h > model.scene.frames * model.scene.dt;
     if (!is_last && noted_ < std::max(kFirst, kSeldom * places_looked_at_)) return std::nullopt;
     const double g = length(model.scene.gravity_at(end));
-    const auto pushed = motion_.pushed(model, error_->solved(), g * model.h * model.h);
+    const std::vector<char> borne = borne_bodies(model, *ends_);
+    const auto pushed = motion_.pushed(model, error_->solved(), borne, g * model.h * model.h);
     if (!pushed) return std::nullopt;
     places_looked_at_ = noted_;
     // What sags by that far swings in about sqrt(way / g).
     const double time = kPeriods * std::sqrt(pushed->most / g);
     const auto settled = error_->settled(*ends_, std::max(1.0, time / model.h),
                                          kHidden * UnsolvedMotion::hidden(pushed->least));
-    const auto found = motion_.find_misplaced(model, settled, g);
+    const auto found = motion_.find_misplaced(model, settled, borne, g);
     if (!found) return std::nullopt;
     const BodyRange& body = model.bodies[found->body];
     return Alarm{

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "simulation/model/model.h"
 
@@ -27,6 +28,16 @@ constexpr double kMisplaced = 0.15;       ///< of the way of a body's middle
 constexpr double kPlainlyVisible = 1e-3;  ///< likewise of a body's size
 constexpr double kMoving = 0.75;          ///< of the way that its middle has come lately
 constexpr std::size_t kLately = 256;      ///< frames, at most
+
+// What rounding makes of a mean, as a part of coordinates.
+constexpr double kUlps = 2.0 * std::numeric_limits<float>::epsilon();
+
+/// Coordinate from 0.
+double farthest(std::span<const float> xyz) {
+    double most = 0.0;
+    for (const float x : xyz) most = std::max(most, std::abs(static_cast<double>(x)));
+    return most;
+}
 
 /// Keeps the one of which the most is undone.
 void keep_worse(std::optional<UnsolvedMotion::Found>& worst, UnsolvedMotion::Found found) {
@@ -88,11 +99,13 @@ std::optional<double> UnsolvedMotion::find(const Model& model, double strain, do
 
 std::optional<UnsolvedMotion::Ways> UnsolvedMotion::pushed(const Model& model,
                                                            std::span<const float> solved,
+                                                           std::span<const char> borne,
                                                            double fallen) const {
+    const double least = std::max(kPush * fallen, kUlps * farthest(solved));
     const Moved now = moved(model);
     std::optional<Ways> ways;
     for (std::size_t b = 0; b < starts_.count(); ++b) {
-        if (length(starts_.mean_way(model, b, solved)) <= kPush * fallen) continue;
+        if (borne[b] == 0 || length(starts_.mean_way(model, b, solved)) <= least) continue;
         const double way = std::max(most_middles_[b], length(now.middles[b]));
         if (!ways) ways = {way, way};
         ways = {std::min(ways->least, way), std::max(ways->most, way)};
@@ -113,6 +126,7 @@ double UnsolvedMotion::moved_lately(std::size_t body, Vec3 middle, double frames
 
 std::optional<UnsolvedMotion::Found> UnsolvedMotion::find_misplaced(const Model& model,
                                                                     std::span<const float> settled,
+                                                                    std::span<const char> borne,
                                                                     double gravity) const {
     const Moved now = moved(model);
     // Contacts give way by a part of it, and what lies on several of them by more.
@@ -121,6 +135,7 @@ std::optional<UnsolvedMotion::Found> UnsolvedMotion::find_misplaced(const Model&
     const double part = model.moving_pins ? 2.0 * kMisplaced : kMisplaced;
     std::optional<Found> worst;
     for (std::size_t b = 0; b < starts_.count(); ++b) {
+        if (borne[b] == 0) continue;
         const double way = std::max(most_middles_[b], length(now.middles[b]));
         const double off = length(starts_.mean_way(model, b, settled));
         const double visible = std::max(give, kPlainlyVisible * starts_.size(b));

@@ -46,14 +46,14 @@ public:
     /// of it; both of edges, RMS.
     std::optional<double> find(const Model& model, double strain, double solved) const;
     /// How far the middles of those bodies have been, at most, that the solved step would push, if
-    /// any. fallen: what gravity makes of a step [m]
+    /// any. borne: [bodies] 0: not these (borne_bodies.h). fallen: what gravity makes of a step [m]
     std::optional<Ways> pushed(const Model& model, std::span<const float> solved,
-                               double fallen) const;
+                               std::span<const char> borne, double fallen) const;
     /// The body whose middle is farthest off, as a part of the farthest that it has been, if any;
     /// not what is under way. settled: where everything would be, likewise, if what the step leaves
     /// undone acted on. gravity: [m/s^2]
     std::optional<Found> find_misplaced(const Model& model, std::span<const float> settled,
-                                        double gravity) const;
+                                        std::span<const char> borne, double gravity) const;
     /// What would not be found, at a body that has been so far [m].
     static double hidden(double way);
     /// Of everything where it started: the diagonal of the box around it [m].
