@@ -29,8 +29,8 @@ constexpr double kPlainlyVisible = 1e-3;  ///< likewise of a body's size
 constexpr double kMoving = 0.75;          ///< of the way that its middle has come lately
 constexpr std::size_t kLately = 256;      ///< frames, at most
 
-// What rounding makes of a mean, as a part of coordinates.
-constexpr double kUlps = 2.0 * std::numeric_limits<float>::epsilon();
+constexpr double kUlp = std::numeric_limits<float>::epsilon();
+constexpr double kRounded = 2.0 * kUlp;  ///< what rounding makes of a mean: of coordinates
 
 /// Coordinate from 0.
 double farthest(std::span<const float> xyz) {
@@ -101,7 +101,7 @@ std::optional<UnsolvedMotion::Ways> UnsolvedMotion::pushed(const Model& model,
                                                            std::span<const float> solved,
                                                            std::span<const char> borne,
                                                            double fallen) const {
-    const double least = std::max(kPush * fallen, kUlps * farthest(solved));
+    const double least = std::max(kPush * fallen, kRounded * farthest(solved));
     const Moved now = moved(model);
     std::optional<Ways> ways;
     for (std::size_t b = 0; b < starts_.count(); ++b) {
