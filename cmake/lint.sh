@@ -51,6 +51,7 @@ simulation/families  kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|b
 simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
 simulation/contact   kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|topology|families|model|solver|contact)
 simulation/solver    kernels|scheduler/(assert|exchange_map).h|runtime|simulation/(mesh|scene|topology|families|model|contact|solver)
+simulation/checks    kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model|contact|solver|checks|diagnostics.h|state.h)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|contact|reference)
 simulation/output    runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps

@@ -6,7 +6,7 @@
 
 #include "runtime/error.h"
 #include "runtime/tbb/cpu_device.h"
-#include "simulation/error_samples.h"
+#include "simulation/checks/error_samples.h"
 #include "simulation/simulation.h"
 
 namespace weft {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "simulation/checks/step_error.h"
 #include "simulation/scene/scene.h"
 #include "simulation/solver/async_settings.h"
-#include "simulation/step_error.h"
 
 namespace weft {
 

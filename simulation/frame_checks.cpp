@@ -6,12 +6,12 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/checks/diagnosis.h"
+#include "simulation/checks/error_samples.h"
+#include "simulation/checks/watch.h"
 #include "simulation/contact/response.h"
-#include "simulation/diagnosis.h"
-#include "simulation/error_samples.h"
 #include "simulation/simulation.h"
 #include "simulation/tolerance_advice.h"
-#include "simulation/watch.h"
 
 namespace weft {
 

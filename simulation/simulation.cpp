@@ -10,15 +10,15 @@
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/unused_memory.h"
 #include "simulation/async_offer.h"
+#include "simulation/checks/error_samples.h"
+#include "simulation/checks/start_checks.h"
+#include "simulation/checks/watch.h"
 #include "simulation/contact/response.h"
-#include "simulation/error_samples.h"
 #include "simulation/run_description.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/solver/async_iterates.h"
 #include "simulation/solver/own_iterates.h"
 #include "simulation/solver_choice.h"
-#include "simulation/start_checks.h"
-#include "simulation/watch.h"
 
 namespace weft {
 

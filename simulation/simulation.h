@@ -12,10 +12,10 @@
 #include "runtime/planning/planned_executor.h"
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
+#include "simulation/checks/start_contacts.h"
 #include "simulation/snapshots.h"
 #include "simulation/solver/async_settings.h"
 #include "simulation/solver/solver.h"
-#include "simulation/start_contacts.h"
 
 namespace weft {
 

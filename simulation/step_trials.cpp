@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "runtime/error.h"
-#include "simulation/error_samples.h"
+#include "simulation/checks/error_samples.h"
 #include "simulation/scene/solver_limits.h"
 #include "simulation/simulation.h"
 

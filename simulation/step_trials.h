@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation/step_error.h"
+#include "simulation/checks/step_error.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "simulation/step_error.h"
+#include "simulation/checks/step_error.h"
 
 namespace weft {
 

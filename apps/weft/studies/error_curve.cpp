@@ -12,8 +12,8 @@
 #include "apps/weft/comparison.h"
 #include "apps/weft/studies/repeated_time.h"
 #include "runtime/error.h"
+#include "simulation/checks/step_error.h"
 #include "simulation/scene/solver_limits.h"
-#include "simulation/step_error.h"
 
 namespace weft {
 

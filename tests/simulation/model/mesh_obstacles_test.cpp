@@ -7,11 +7,11 @@
 
 #include "runtime/error.h"
 #include "simulation/bodies/mesh_files.h"
+#include "simulation/checks/start_contacts.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
-#include "simulation/start_contacts.h"
 
 namespace weft::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "simulation/start_contacts.h"
+#include "simulation/checks/start_contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "simulation/checks/start_checks.h"
 #include "simulation/scene/read_scene.h"
-#include "simulation/start_checks.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {

@@ -1,7 +1,7 @@
 // How far a substep was solved, as runs estimate it, against the minimum that Newton's method finds
 // in double precision.
 
-#include "simulation/step_error.h"
+#include "simulation/checks/step_error.h"
 
 #include <gtest/gtest.h>
 

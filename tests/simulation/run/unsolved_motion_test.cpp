@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/borne_bodies.h"
-#include "simulation/error_samples.h"
+#include "simulation/checks/borne_bodies.h"
+#include "simulation/checks/error_samples.h"
 #include "simulation/model/model.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"

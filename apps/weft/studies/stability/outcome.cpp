@@ -7,9 +7,9 @@
 #include <random>
 
 #include "runtime/error.h"
+#include "simulation/checks/start_checks.h"
+#include "simulation/checks/start_contacts.h"
 #include "simulation/scene/read_scene.h"
-#include "simulation/start_checks.h"
-#include "simulation/start_contacts.h"
 
 namespace weft::stability {
 

@@ -1,4 +1,4 @@
-#include "simulation/outside_work.h"
+#include "simulation/checks/outside_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "runtime/tbb/parallel.h"
+#include "simulation/checks/pin_work.h"
 #include "simulation/diagnostics.h"
 #include "simulation/families/convert.h"
-#include "simulation/pin_work.h"
 
 namespace weft {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/step_error.h"
-#include "simulation/unsolved_motion.h"
-#include "simulation/watch.h"
+#include "simulation/checks/step_error.h"
+#include "simulation/checks/unsolved_motion.h"
+#include "simulation/checks/watch.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/watch.h"
+#include "simulation/checks/watch.h"
 
 namespace weft {
 

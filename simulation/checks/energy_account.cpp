@@ -1,4 +1,4 @@
-#include "simulation/energy_account.h"
+#include "simulation/checks/energy_account.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "simulation/checks/start_checks.h"
 #include "simulation/families/convert.h"
-#include "simulation/start_checks.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/step_error.h"
+#include "simulation/checks/step_error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-#include "simulation/pin_work.h"
+#include "simulation/checks/pin_work.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/checks/pin_twist.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/model.h"
-#include "simulation/pin_twist.h"
 
 namespace weft {
 

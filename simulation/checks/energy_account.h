@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "simulation/checks/outside_work.h"
 #include "simulation/diagnostics.h"
-#include "simulation/outside_work.h"
 
 namespace weft {
 

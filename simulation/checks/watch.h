@@ -4,8 +4,8 @@
 #include <string>
 
 #include "runtime/tbb/parallel.h"
+#include "simulation/checks/energy_account.h"
 #include "simulation/contact/energy.h"
-#include "simulation/energy_account.h"
 #include "simulation/state.h"
 
 namespace weft {

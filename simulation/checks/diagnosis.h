@@ -1,8 +1,8 @@
 #pragma once
 
+#include "simulation/checks/watch.h"
 #include "simulation/solver/solver.h"
 #include "simulation/state.h"
-#include "simulation/watch.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/pin_twist.h"
+#include "simulation/checks/pin_twist.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "simulation/diagnosis.h"
+#include "simulation/checks/diagnosis.h"
 
 #include <fmt/format.h>
 

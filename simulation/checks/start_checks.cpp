@@ -1,4 +1,4 @@
-#include "simulation/start_checks.h"
+#include "simulation/checks/start_checks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simulation/energy_account.h"
+#include "simulation/checks/energy_account.h"
 #include "simulation/families/convert.h"
 
 namespace weft {

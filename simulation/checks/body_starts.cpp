@@ -1,4 +1,4 @@
-#include "simulation/body_starts.h"
+#include "simulation/checks/body_starts.h"
 
 #include <algorithm>
 #include <cmath>

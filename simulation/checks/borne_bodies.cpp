@@ -1,4 +1,4 @@
-#include "simulation/borne_bodies.h"
+#include "simulation/checks/borne_bodies.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "simulation/outside_work.h"
+#include "simulation/checks/outside_work.h"
 
 namespace weft {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/body_starts.h"
+#include "simulation/checks/body_starts.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/unsolved_motion.h"
+#include "simulation/checks/unsolved_motion.h"
 
 #include <algorithm>
 #include <cmath>

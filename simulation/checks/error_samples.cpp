@@ -1,4 +1,4 @@
-#include "simulation/error_samples.h"
+#include "simulation/checks/error_samples.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/borne_bodies.h"
+#include "simulation/checks/borne_bodies.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/model.h"
 

@@ -1,4 +1,4 @@
-#include "simulation/start_contacts.h"
+#include "simulation/checks/start_contacts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,12 +9,12 @@
 
 #include "runtime/error.h"
 #include "runtime/tbb/parallel.h"
+#include "simulation/checks/energy_account.h"
+#include "simulation/checks/triangle_distance.h"
 #include "simulation/contact/knots.h"
-#include "simulation/energy_account.h"
 #include "simulation/mesh/vertex_sets.h"
 #include "simulation/mesh/winding.h"
 #include "simulation/model/contact_thickness.h"
-#include "simulation/triangle_distance.h"
 
 namespace weft {
 
