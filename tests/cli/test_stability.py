@@ -39,13 +39,18 @@ def test_what_held_holds(short):
     for solver in solvers:
         for group, case in [("stiffness", "k = 1e+02 N/m, h = 1.04 ms"),
                             ("stiffness", "k = 1e+04 N/m, h = 1.04 ms"),
-                            ("mass ratio", "hanging : carrying = 1e+00, h = 4.17 ms"),
-                            ("Poisson's ratio", "nu = 0.495, h = 4.17 ms"),
+                            ("Poisson's ratio", "nu = -0.5, h = 4.17 ms"),
                             ("contact", "upper : lower = 1e+00, h = 4.17 ms"),
                             ("touching", "sheets meet at 10 m/s"),
                             ("extreme", "a stiff sheet falls freely for 4 s"),
                             ("extreme", "a sheet of 1000 m")]:
             assert rows[group, case, solver]["verdict"] == "stable", (group, case, solver)
+    # These sag by up to seven times what newton's do, and their runs say so.
+    hanging = rows["mass ratio", "hanging : carrying = 1e+00, h = 4.17 ms", "xpbd"]
+    assert hanging["verdict"] == "unconverged"
+    for solver in ("xpbd", "sosd", "jpgd"):
+        beam = rows["Poisson's ratio", "nu = 0.495, h = 4.17 ms", solver]
+        assert beam["verdict"] == "unconverged", solver
     # It gets through nobody's sheet. Three solvers let the sheet be torn along on the way, more
     # than they have solved for, and their runs say so.
     case = "a ball of 0.3 m hits a sheet at 1000 m/s"
