@@ -120,7 +120,7 @@ void Simulation::resume(const Checkpoint& checkpoint) {
     place();
     restore(state);
     watch_->restart(*model_, time(), checkpoint.account);
-    if (samples_) samples_->restart(*model_, time());
+    if (samples_) samples_->resume(*model_);
 }
 
 /// Everything that knows the length of a step is made anew; devices and costs stay.

@@ -67,6 +67,11 @@ void ErrorSamples::restart(const Model& model, double time) {
     first_strain_ = last_strain_ = most_strain_ = model.edges->strain(model.positions->span()).rms;
 }
 
+void ErrorSamples::resume(const Model& model) {
+    last_strain_ = most_strain_ = model.edges->strain(model.positions->span()).rms;
+    motion_.resume(model);
+}
+
 void ErrorSamples::note(const Model& model, double strain) {
     last_strain_ = strain;
     ++noted_;

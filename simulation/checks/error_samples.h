@@ -20,6 +20,9 @@ public:
 
     /// It goes on from another state, where the model is, at a time [s].
     void restart(const Model& model, double time);
+    /// It goes on where an earlier run of the same scene ended, and where the model is: what has
+    /// moved has done so since the scene's start.
+    void resume(const Model& model);
 
     /// Whether the frame's last substep is to be kept; frames of the scene that the model is of.
     bool wants(const Model& model, int frame) const;

@@ -75,6 +75,11 @@ void UnsolvedMotion::note(const Model& model) {
     if (lately_.size() > kLately) lately_.pop_back();
 }
 
+void UnsolvedMotion::resume(const Model& model) {
+    lately_.clear();
+    note(model);
+}
+
 std::optional<UnsolvedMotion::Found> UnsolvedMotion::find(const Model& model,
                                                           std::span<const float> solved) const {
     const Moved now = moved(model);
@@ -115,10 +120,13 @@ std::optional<UnsolvedMotion::Ways> UnsolvedMotion::pushed(const Model& model,
 
 double UnsolvedMotion::hidden(double way) { return kMisplaced * way; }
 
-/// The farthest that the body's middle was from where it is [m], so many frames ago and since.
+/// The farthest that the body's middle was from where it is [m], so many frames ago and since; all
+/// of its way, where not so many are known.
 double UnsolvedMotion::moved_lately(std::size_t body, Vec3 middle, double frames) const {
+    const std::size_t window = std::min(static_cast<std::size_t>(std::ceil(frames)), kLately);
+    if (lately_.size() < window) return length(middle);
     double most = 0.0;
-    for (std::size_t k = 0; k < lately_.size() && static_cast<double>(k) < frames; ++k) {
+    for (std::size_t k = 0; k < window; ++k) {
         most = std::max(most, length(middle - lately_[k][body]));
     }
     return most;

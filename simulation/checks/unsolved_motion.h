@@ -39,6 +39,8 @@ public:
 
     /// At a frame's end: how far everything is from where it started.
     void note(const Model& model);
+    /// Likewise, at the end of a frame of which those before were not noted.
+    void resume(const Model& model);
     /// The body of which most would be taken back, if any (RMS). solved: where a step would have
     /// led to that led to where everything is, xyz in scene order [m]
     std::optional<Found> find(const Model& model, std::span<const float> solved) const;

@@ -25,7 +25,7 @@ protected:
     }
 
     /// By the end of the run.
-    static std::string said_by(Simulation simulation) {
+    static std::string said_by(Simulation&& simulation) {
         while (simulation.frame() < simulation.model().scene.frames) simulation.advance();
         std::string all;
         for (const Trouble& trouble : simulation.troubles()) all += trouble.what + '\n';
@@ -61,6 +61,17 @@ TEST_P(UnsolvedMotion, OfATubeThatShouldStandStillIsTold) {
     const std::string said = said_by(scene_of(kTube));
     EXPECT_EQ(speaks_of_motion(said), GetParam() != Method::kNewton) << said;
     EXPECT_EQ(said.empty(), GetParam() == Method::kNewton) << said;
+}
+
+/// What has moved before a run was stopped has done so when it goes on, shortly before its end.
+TEST_P(UnsolvedMotion, IsToldByARunThatGoesOn) {
+    const Scene scene = scene_of(kTube);
+    Simulation stopped = simulation_of(scene, OnTrouble::kReport);
+    while (stopped.frame() < scene.frames - 4) stopped.advance();
+    Simulation going_on = simulation_of(scene, OnTrouble::kReport);
+    going_on.resume(stopped.checkpoint());
+    const std::string said = said_by(std::move(going_on));
+    EXPECT_EQ(speaks_of_motion(said), GetParam() != Method::kNewton) << said;
 }
 
 /// It hangs in the same way beside something that falls: that is no excuse.
