@@ -171,7 +171,7 @@ TEST_P(UnsolvedMotion, ThatIsTooSlowIsTold) {
     scene.substeps = 2;
     scene.cloths[0].stretch.stiffness = 1e4;
     const Method method = GetParam();
-    if (method == Method::kSosd) return;  // it is told in other frames, or not
+    if (method == Method::kSosd) return;  // as slow, and within the bounds
     EXPECT_EQ(speaks_of_places(said_by(scene)), method == Method::kVbd || method == Method::kJpgd);
 }
 
