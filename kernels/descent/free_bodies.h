@@ -40,23 +40,22 @@ WEFT_KERNEL(add_lags, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const flo
     store4(partials, i, with_w(sum, splat(0.0f)));
 }
 
-/// Adds up the columns of each run.
-/// partials      [parts * columns] column-major, as are lags
-/// first_column  [runs] of each run in `partials`
-/// lags          [parts * lag_count] written for each run: of xyz alone [m], if there is one part
-WEFT_KERNEL(add_columns, WEFT_GLOBAL const float4* partials, WEFT_GLOBAL const int* first_column,
-            WEFT_GLOBAL float4* lags, int parts, int column_count, int lag_count) {
+/// Adds up the columns of runs, one part of what they hold per item.
+/// partials  [parts * columns] column-major
+/// starts    [items] where the columns of each begin in `partials`
+/// places    [items] where its sum belongs in `lags`
+/// lags      [parts * lag_count] column-major; written for each run: of xyz alone [m], if there is
+///           one part
+WEFT_KERNEL(add_columns, WEFT_GLOBAL const float4* partials, WEFT_GLOBAL const int* starts,
+            WEFT_GLOBAL const int* places, WEFT_GLOBAL float4* lags) {
     const real zero = splat(0.0f);
-    const integer first = load_index(first_column, i);
-    for (int part = 0; part < parts; ++part) {
-        WEFT_GLOBAL const float4* columns = partials + part * column_count;
-        real4 sum = {zero, zero, zero, zero};
-        for (int k = 0; k < WEFT_RUN_COLUMNS; ++k) {
-            const real4 column_sum = gather4(columns + k, first);
-            sum = with_w(add(xyz(sum), xyz(column_sum)), sum.w + column_sum.w);
-        }
-        store4(lags, column(i, lag_count, part), sum);
+    const integer start = load_index(starts, i);
+    real4 sum = {zero, zero, zero, zero};
+    for (int k = 0; k < WEFT_RUN_COLUMNS; ++k) {
+        const real4 column_sum = gather4(partials + k, start);
+        sum = with_w(add(xyz(sum), xyz(column_sum)), sum.w + column_sum.w);
     }
+    scatter4(lags, load_index(places, i), sum);
 }
 
 /// How far the body of each run has to go.

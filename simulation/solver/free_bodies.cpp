@@ -52,7 +52,6 @@ FreeBodies::FreeBodies(const Model& model, const std::vector<int>& bodies, std::
       strip_runs_("free.strip_runs", model.strips.begin.size()),
       strip_columns_("free.strip_columns", model.strips.begin.size()),
       rows_("free.rows", 2 * kColumns * runs_.size()),
-      first_column_("free.first_column", runs_.size()),
       first_run_("free.first_run", runs_.size()),
       counts_("free.counts", runs_.size()),
       run_of_("free.run_of", at(model.vertex_count())),
@@ -72,7 +71,6 @@ void FreeBodies::fill_strips(const Model& model) {
     std::fill(run_of_.data(), run_of_.data() + run_of_.count(), static_cast<int>(runs_.size()));
     for (std::size_t r = 0; r < runs_.size(); ++r) {
         ++strip_runs_[at(runs_[r].strip + 1)];
-        first_column_[r] = kColumns * static_cast<int>(r);
         std::fill(run_of_.data() + runs_[r].begin, run_of_.data() + runs_[r].end,
                   static_cast<int>(r));
     }
@@ -140,10 +138,34 @@ std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& t
             add_columns(partials_, lags_, 1, 0)};
 }
 
+FreeBodies::Sums::Sums(const FreeBodies& bodies, int part_count, int count_of_lags)
+    : parts(part_count),
+      lag_count(count_of_lags),
+      begin("free.sums", bodies.strip_runs_.count()),
+      starts("free.starts", at(parts) * bodies.runs_.size()),
+      places("free.places", starts.count()) {
+    std::ranges::transform(bodies.strip_runs_.span(), begin.data(),
+                           [&](int run) { return parts * run; });
+    for (int run = 0; run < bodies.run_count(); ++run) {
+        for (int part = 0; part < parts; ++part) {
+            starts[at(parts * run + part)] = part * bodies.column_count() + kColumns * run;
+            places[at(parts * run + part)] = part * lag_count + run;
+        }
+    }
+}
+
+FreeBodies::Sums& FreeBodies::sums(int parts, int lag_count) {
+    for (const auto& known : sums_) {
+        if (known->parts == parts && known->lag_count == lag_count) return *known;
+    }
+    return *sums_.emplace_back(std::make_unique<Sums>(*this, parts, lag_count));
+}
+
 Launch FreeBodies::add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts,
                                int lag_count) {
-    return launch(kernels::add_columns, runs_by_strip_, partials, first_column_, lags, parts,
-                  column_count(), lag_count);
+    Sums& items = sums(parts, lag_count);
+    const Segments segments{&items.begin, 0, 1, runs_by_strip_.strip_count};
+    return launch(kernels::add_columns, segments, partials, items.starts, items.places, lags);
 }
 
 void FreeBodies::add_sum_accesses(Step::Adding& task, int first_strip, int end_strip) {

@@ -41,6 +41,7 @@ public:
     /// Those of strips [first_strip, end_strip).
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
+    /// Adds them up for each run, in so many parts.
     Launch add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts, int lag_count);
 
 private:
@@ -50,13 +51,21 @@ private:
     void fill_columns(const Model& model, const std::vector<int>& bodies);
     void fill_bodies();
 
+    /// Where columns of one kind are, and where their sums belong: an item per run and part.
+    struct Sums {
+        Sums(const FreeBodies& bodies, int parts, int lag_count);
+        int parts, lag_count;
+        Buffer<int> begin;           ///< [strips + 1]
+        Buffer<int> starts, places;  ///< [items] see the kernel
+    };
+    Sums& sums(int parts, int lag_count);
+
     std::vector<Run> runs_;
     int most_runs_ = 0;  ///< of one body
     int body_count_ = 0;
     Buffer<int> strip_runs_;     ///< [strips + 1]
     Buffer<int> strip_columns_;  ///< [strips + 1]
     Buffer<int> rows_;           ///< [2 * columns] see the kernels for these and the following
-    Buffer<int> first_column_;   ///< [runs]
     Buffer<int> first_run_;      ///< [runs]
     Buffer<float> counts_;       ///< [runs]
     Buffer<int> run_of_;         ///< [vertices]
@@ -65,6 +74,7 @@ private:
     Buffer<float4> shifts_;      ///< [runs + 1]
     std::unique_ptr<Buffer<int>> members_;   ///< [entries]
     std::unique_ptr<Buffer<float>> shares_;  ///< [entries]
+    std::vector<std::unique_ptr<Sums>> sums_;
     Segments runs_by_strip_, columns_by_strip_, vertices_;
 };
 

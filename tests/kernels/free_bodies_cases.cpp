@@ -41,13 +41,13 @@ void lags_case(KernelCase& c) {
 }
 
 void columns_case(KernelCase& c) {
-    constexpr int kParts = 2;
     const int columns = c.items + WEFT_RUN_COLUMNS;
-    auto& partials = add_points(c, "partials", kParts * columns);
-    auto& first = add_indices(c, "first_column", c.items, c.items);
-    auto& lags = c.add<float4>("lags", kParts * c.items);
-    c.launch =
-        launch(kernels::add_columns, c.segments, partials, first, lags, kParts, columns, c.items);
+    auto& partials = add_points(c, "partials", columns);
+    auto& starts = add_indices(c, "starts", c.items, c.items);
+    auto& places = c.add<int>("places", c.items);
+    for (int i = 0; i < c.items; ++i) places[at(i)] = c.items - 1 - i;
+    auto& lags = c.add<float4>("lags", c.items);
+    c.launch = launch(kernels::add_columns, c.segments, partials, starts, places, lags);
 }
 
 void runs_case(KernelCase& c) {

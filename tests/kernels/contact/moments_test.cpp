@@ -26,7 +26,8 @@ struct Cloud {
     int count;
     Buffer<float4> positions, targets;
     Buffer<int> members{"members", kColumns}, rows{"rows", 2 * kColumns},
-        origins{"origins", kColumns}, first_column{"first_column", 1}, first_run{"first_run", 1};
+        origins{"origins", kColumns}, first_run{"first_run", 1},
+        starts{"starts", WEFT_MOMENT_PARTS}, places{"places", WEFT_MOMENT_PARTS};
     Buffer<float> shares{"shares", kColumns}, counts{"counts", 1};
     Buffer<float4> partials{"partials", WEFT_MOMENT_PARTS*kColumns},
         sums{"sums", 2 * WEFT_MOMENT_PARTS}, table{"moments", 2 * WEFT_MOMENT_PARTS};
@@ -36,6 +37,10 @@ struct Cloud {
           positions("positions", static_cast<std::size_t>(vertices)),
           targets("targets", positions.count()) {
         counts[0] = 1.0f;
+        for (int part = 0; part < WEFT_MOMENT_PARTS; ++part) {
+            starts[static_cast<std::size_t>(part)] = kColumns * part;
+            places[static_cast<std::size_t>(part)] = 2 * part;
+        }
         for (int c = 0; c < kColumns; ++c) {
             const auto k = static_cast<std::size_t>(c);
             members[k] = c < count ? c : 0;
@@ -53,9 +58,8 @@ struct Cloud {
         run(launch(kernels::add_moments, Segments{}, positions, targets, members, shares, rows,
                    origins, partials, kColumns),
             kColumns);
-        run(launch(kernels::add_columns, Segments{}, partials, first_column, sums,
-                   WEFT_MOMENT_PARTS, kColumns, 2),
-            1);
+        run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
+            WEFT_MOMENT_PARTS);
         run(launch(kernels::weigh_bodies, Segments{}, sums, first_run, counts, table, 1, 2, 1), 1);
         return gather_moments(table.data(), 2, 0);
     }
