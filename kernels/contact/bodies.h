@@ -92,8 +92,10 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
-/// partials       [12 * columns] written, column-major, see above
+/// partials       [12 * columns] written, column-major, see above; behind the first round where it
+///                may have changed
 /// friction, creep  as in add_push
+/// is_pressed     1 where contacts rub by what `points` say, 0 where they do so by their gaps
 /// h2             the square of the substep [s^2]
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
 ///                have ended badly: nothing reads them, nor `strains`
@@ -106,8 +108,12 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
             WEFT_GLOBAL const float4* forces, WEFT_GLOBAL const float4* points,
             WEFT_GLOBAL const float4* other_points, WEFT_GLOBAL float4* partials, float friction,
-            float creep, float h2, int has_moved, int is_strain, int column_count, int body_count) {
+            float creep, int is_pressed, float h2, int has_moved, int is_strain, int column_count,
+            int body_count) {
+    const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
+    const float by_gaps = is_pressed ? 0.0f : friction;
+    const float pressed = is_pressed ? friction : 0.0f;
     const integer own_body = load_index(column_bodies, i);
     const real yielding = splat(h2) / gather(masses, own_body);
     const real3 centre = xyz(gather4(moments_of, own_body));
@@ -124,17 +130,22 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         if (has_moved) sum.lag.shift = add_scaled(sum.lag.shift, own.shift, -left.w);
     }
 
-    const whole start = load_whole(rows, i);
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
+    if (has_moved && longest == 0) {  // All else is zero since the first round.
+        store4(partials, column(i, column_count, 5), with_w(sum.lag.shift, zero));
+        return;
+    }
+    const whole start = load_whole(rows, i);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
         const whole opposite = code >> splat_whole(1);
-        const real3 point = xyz(gather4(points, entry));
-        real3 lever = subtract(point, centre);
+        const real4 point = gather4(points, entry);
+        const real press = on ? splat(pressed) * point.w : zero;
+        real3 lever = subtract(xyz(point), centre);
         if (has_moved) {
             const integer other = address(opposite);
             const real3 other_lever =
@@ -150,8 +161,12 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             c.ahead = c.range;
             lever = add(lever, turned);
         }
-        if (!any_item(both(on, is_pushed(c)))) continue;
-        const derivatives push = add_push(zero_derivatives(), c, on, no_way, friction, creep);
+        if (!any_item(both(on, (is_pushed(c) ? splat(1.0f) : press) > zero))) continue;
+        derivatives push = add_push(zero_derivatives(), c, on, no_way, by_gaps, creep);
+        if (is_pressed) {
+            const real grip = friction_grip(length3(c.slip), splat(creep));
+            push = add_rubbing(push, c, press * grip, no_way);
+        }
         const real outside = code > opposite + opposite ? splat(1.0f) : splat(0.0f);
         if (is_strain)
             sum = add_strain_at(sum, push, lever, yielding);

@@ -53,8 +53,11 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// slips        [entries] written: of this side along the other one [m]; the gap where inertia
 ///              leads [m]
 /// earlier_slips  [entries] as the slips of gather_contacts
+/// multipliers  [entries] of xpbd, see project_contacts [N s^2]; not read where has_multipliers is 0
+/// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
-/// points, other_points  [entries] written: where this side is touched, and the other one [m]
+/// points, other_points  [entries] written: where this side is touched, and the other one [m]; w of
+///              points: how hard multipliers say that they press each other [N]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
 WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
@@ -64,12 +67,12 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
             WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
             WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
             WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const float4* earlier_slips, WEFT_GLOBAL const int* push_rows,
-            WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes,
-            WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
-            WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
-            WEFT_GLOBAL float4* standing, int column_count, int body_count, float friction,
-            int instance) {
+            WEFT_GLOBAL const float4* earlier_slips, WEFT_GLOBAL const float* multipliers,
+            WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
+            WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
+            WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
+            WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float4* standing, int column_count,
+            int body_count, float friction, int has_multipliers, float inverse_h2, int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
@@ -124,13 +127,15 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
                 const real3 point = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
                 const real3 other_point = point_of_side(positions, w, own, -1.0f, c0, c1, c2, c3);
                 const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
+                const real press =
+                    has_multipliers ? gather(multipliers, entry) * splat(inverse_h2) : zero;
                 const mask fits = both(counts_here, found < room);
                 const integer place = address(push_start + found * WEFT_CONTACT_STRIDE);
                 scatter_whole_where(fits, codes, place, opposite + opposite + outside);
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
                 scatter4_where(fits, forces, place, force);
-                scatter4_where(fits, points, place, with_w(point, zero));
+                scatter4_where(fits, points, place, with_w(point, press));
                 scatter4_where(fits, other_points, place, with_w(other_point, zero));
                 found = counts_here ? found + splat_whole(1) : found;
             }

@@ -11,12 +11,14 @@ constexpr int kFirstRoom = 16;  ///< of a row
 }  // namespace
 
 BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
-                       double h)
+                       Buffer<float>* multipliers, double h)
     : contacts_(contacts),
       columns_(columns),
       friction_(static_cast<float>(rubbing.friction)),
       creep_(static_cast<float>(rubbing.creep)),
       h2_(static_cast<float>(h * h)),
+      none_("touching.no_multipliers", 1),
+      multipliers_(multipliers),
       table_("touching.pushes", columns.by_strip, kFirstRoom),
       codes_(table_.add_column<int>("codes")),
       sides_(table_.add_column<float4>("sides")),
@@ -32,14 +34,16 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   columns_.shares, columns_.rows, bodies, groups.leaders, contacts_.table.rows(),
                   contacts_.table.counts(), contacts_.corner0, contacts_.corner1, contacts_.corner2,
                   contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
-                  contacts_.slips, table_.rows(), table_.counts(), table_.needs(), codes_, sides_,
-                  slips_, forces_, points_, other_points_, standing_, columns_.count,
-                  groups.body_count(), friction_, kInstance);
+                  contacts_.slips, multipliers_ ? *multipliers_ : none_, table_.rows(),
+                  table_.counts(), table_.needs(), codes_, sides_, slips_, forces_, points_,
+                  other_points_, standing_, columns_.count, groups.body_count(), friction_,
+                  multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
 }
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
                                       int last) {
     contacts_.add_reads(task, region.begin, region.end, first, last);
+    if (multipliers_) task.reads(*multipliers_, contacts_.table.entries());
     const int column = columns_.by_strip.item(region.begin);
     const int end = columns_.by_strip.item(region.end);
     task.updates(table_.counts(), column, end)
@@ -57,8 +61,8 @@ Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer
     const int body_count = static_cast<int>(masses.count());
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
                   moments, motions, strains, table_.rows(), table_.counts(), codes_, sides_, slips_,
-                  forces_, points_, other_points_, partials, friction_, creep_, h2_, has_moved,
-                  is_strain, columns_.count, body_count);
+                  forces_, points_, other_points_, partials, friction_, creep_,
+                  multipliers_ ? 1 : 0, h2_, has_moved, is_strain, columns_.count, body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {

@@ -14,8 +14,10 @@ namespace weft {
 /// column (kernels/contact/pushes.h).
 class BodyPushes {
 public:
-    /// contacts, columns: must outlive this. h: the substep [s]
-    BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing, double h);
+    /// contacts, columns: must outlive this. multipliers: [entries of contacts] by which they rub;
+    /// null: they do so as their gaps say. h: the substep [s]
+    BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
+               Buffer<float>* multipliers, double h);
 
     /// Collects them at these positions, those of all vertices. bodies: [vertices], as the kernel's
     Launch collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
@@ -37,6 +39,8 @@ private:
     ContactRows contacts_;
     BodyColumns columns_;
     float friction_, creep_, h2_;
+    Buffer<float> none_;          ///< one, of no use
+    Buffer<float>* multipliers_;  ///< null: none
     RowTable table_;
     Buffer<int>& codes_;
     Buffer<float4>&sides_, &slips_, &forces_, &points_, &other_points_;

@@ -21,6 +21,9 @@ public:
     void add_project(std::vector<Launch>& launches);
     void add_project_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
+    /// [entries of the contacts' rows] how hard each presses, times h^2 [N s^2]
+    Buffer<float>& multipliers() { return multipliers_; }
+
 private:
     Launch share(int ahead);
     Launch push();

@@ -8,7 +8,7 @@
 #include "runtime/step.h"
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
-#include "simulation/solver/touching_bodies.h"
+#include "simulation/solver/body_momentum.h"
 
 namespace weft {
 
@@ -26,24 +26,13 @@ public:
     /// Behind the ends of all regions: what is measured of a substep.
     void add_measurements(Step& step, const std::vector<Region>& regions, int iteration);
 
-    /// Whether there are bodies whose momentum has to be summed between the last iteration and the
-    /// end; what that launches, for the positions after the last iteration.
-    bool has_free_bodies() const { return free_bodies_ != nullptr; }
-    std::vector<Launch> sum_momentum(Buffer<float4>& positions);
-    /// Behind the last iteration of all regions; nothing without such bodies.
-    void add_momentum(Step& step, const TaskBody& body, const std::vector<Region>& regions,
-                      Buffer<float4>& positions, int iteration);
-
-    /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
-    void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
-    /// What that needs of vertices [first, last), besides the positions.
-    void add_obstacle_accesses(Step::Adding& task, int first, int last);
+    /// Free bodies, and obstacles' pushes.
+    BodyMomentum& momentum() { return momentum_; }
 
     /// What there is besides the solver's own: tasks for momentum, and for contacts.
     void list_bodies(std::vector<const TaskBody*>& bodies) const;
     void list_kinds(std::vector<std::string>& kinds) const;
     std::vector<RowTable*> tables();
-    int kind_of_momentum() const { return first_kind_; }
 
     /// Contacts between bodies; null: none.
     ContactResponse* contact() { return contact_.get(); }
@@ -57,15 +46,10 @@ public:
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
 private:
-    void add_shift(std::vector<Launch>& launches);
-
     Model& model_;
-    int first_kind_;
     Buffer<float4> targets_;
-    std::unique_ptr<FreeBodies> free_bodies_;  ///< null: none
     std::unique_ptr<ContactResponse> contact_;
-    std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
-    std::unique_ptr<Buffer<float4>> pushed_;    ///< null: nothing pushes
+    BodyMomentum momentum_;
 };
 
 /// Which positions the elements of a range of vertices read.

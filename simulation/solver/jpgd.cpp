@@ -15,7 +15,7 @@ namespace weft {
 
 namespace {
 
-enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities, kMomentum };
+enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities, kKinds };
 
 constexpr int kCheckEvery = 8;    ///< iterations
 constexpr int kRefreshEvery = 8;  ///< iterations, from this one on; before it, every one
@@ -59,7 +59,7 @@ public:
     explicit JpgdSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, kMomentum),
+          substep_(model, kKinds),
           contact_(substep_.contact()),
           items_(model.strips),
           derivatives_(model, items_),
@@ -87,7 +87,6 @@ public:
             }
             if (!contact_) list.push_back(&steps_[parity]);
         }
-        if (substep_.has_free_bodies()) list.push_back(&momentum_);
         substep_.list_bodies(list);
         return list;
     }
@@ -124,7 +123,7 @@ public:
             }
         }
         add_check(step, regions, iterations_);
-        substep_.add_momentum(step, momentum_, regions, after(iterations_), iterations_);
+        substep_.momentum().add_sums(step, regions, iterations_);
         for (const Region& region : regions) add_velocities(step, region);
         substep_.add_measurements(step, regions, iterations_);
         step.seal();
@@ -144,7 +143,7 @@ private:
 
     void make_bodies() {
         predict_ = {"predict", kPredict, substep_.begin()};
-        substep_.add_obstacles(predict_.launches, *model_.positions);
+        substep_.momentum().add_obstacles(predict_.launches, *model_.positions);
         const Segments first{&first_strip_, 0, 1, model_.strips.count()};
         decide_ = {"decide",
                    kDecide,
@@ -167,13 +166,11 @@ private:
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
                 body->launches.push_back(contact_ ? descend_beside_contacts(parity)
                                                   : descend(parity));
-                substep_.add_obstacles(body->launches, after(parity + 1));
+                substep_.momentum().add_obstacles(body->launches, after(parity + 1));
                 if (contact_) add_truncation(body->launches, parity);
             }
         }
-        if (substep_.has_free_bodies()) {
-            momentum_ = {"momentum", kMomentum, substep_.sum_momentum(after(iterations_))};
-        }
+        substep_.momentum().look_at(after(iterations_));
         velocities_ = {"velocities", kVelocities, {}};
         if (iterations_ % 2 != 0) {
             velocities_.launches.push_back(
@@ -252,7 +249,7 @@ private:
             .reads(residue(iteration), first, last)
             .updates(residue(iteration + 1), first, last);
         derivatives_.add_hessian_accesses(task, first, last, is_fresh);
-        substep_.add_obstacle_accesses(task, first, last);
+        substep_.momentum().add_obstacle_accesses(task, first, last);
         if (!contact_) return;
         contact_->rows().add_reads(task, strips.begin, strips.end, first, last);
         contact_->add_truncation_accesses(task, first, last);
@@ -282,7 +279,6 @@ private:
     Buffer<float> weights_;
     Buffer<int> first_strip_;  ///< one item, in strip 0
     TaskBody predict_, decide_, velocities_;
-    TaskBody momentum_;                                               ///< empty: no free bodies
     std::array<TaskBody, 2> energies_, reverts_, refreshes_, steps_;  ///< [parity of iterations]
 };
 

@@ -8,10 +8,7 @@ SweepSolver::SweepSolver(Model& model)
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
-    if (substep_.has_free_bodies()) {
-        momentum_ = {"momentum", substep_.kind_of_momentum(),
-                     substep_.sum_momentum(*model.positions)};
-    }
+    substep_.momentum().look_at(*model.positions);
 }
 
 void SweepSolver::add_sweep(const VertexLayout& layout,
@@ -34,7 +31,7 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
         }
         body.taking_turns = static_cast<int>(body.launches.size());
     }
-    substep_.add_obstacles(sweep.strips.launches, *model_.positions);
+    substep_.momentum().add_obstacles(sweep.strips.launches, *model_.positions);
     if (contact == nullptr) return;
     contact->add_truncation(sweep.strips.launches, *model_.positions);
     contact->add_snapshot(sweep.strips.launches, *model_.positions);
@@ -47,7 +44,6 @@ std::vector<const TaskBody*> SweepSolver::bodies() const {
         list.push_back(&sweep->strips);
     }
     list.push_back(&velocities_);
-    if (substep_.has_free_bodies()) list.push_back(&momentum_);
     substep_.list_bodies(list);
     return list;
 }
@@ -75,7 +71,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
     for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
-    substep_.add_momentum(step, momentum_, regions, *model_.positions, iterations - 1);
+    substep_.momentum().add_sums(step, regions, iterations - 1);
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);
     }
@@ -111,7 +107,7 @@ void SweepSolver::add_strips(Step& step, int iteration, StripRange strips, Regio
     const auto [first, last] = substep_.vertices(strips.begin, strips.end);
     auto task = step.add(sweep(iteration).strips, iteration, strips, region);
     task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);
-    substep_.add_obstacle_accesses(task, first, last);
+    substep_.momentum().add_obstacle_accesses(task, first, last);
     ContactResponse* contact = substep_.contact();
     if (contact == nullptr) return;
     contact->add_gather_accesses(task, iteration, strips.begin, strips.end);

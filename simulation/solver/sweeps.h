@@ -60,7 +60,6 @@ private:
     DescentSubstep substep_;
     Halo halo_;
     TaskBody predict_, velocities_;
-    TaskBody momentum_;  ///< empty: no free bodies
     std::vector<std::unique_ptr<Sweep>> sweeps_;
 };
 

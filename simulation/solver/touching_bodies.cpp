@@ -40,10 +40,10 @@ std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bod
 }  // namespace
 
 TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
-                               int first_kind)
+                               Buffer<float>* multipliers, int first_kind)
     : model_(model),
       bodies_(bodies),
-      pushes_(contact.rows(), bodies.columns(), contact.rubbing(), model.h),
+      pushes_(contact.rows(), bodies.columns(), contact.rubbing(), multipliers, model.h),
       groups_(contact.motion().group(parts_of(model, bodies))),
       lag_count_(bodies.run_count() + bodies.most_runs()),
       partials_("touching.partials", at(kParts * bodies.column_count())),

@@ -16,8 +16,9 @@ namespace weft {
 /// there are sums as FreeBodies', and a task of one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
-    /// first_kind: of the tasks. All others must outlive this.
-    TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact, int first_kind);
+    /// multipliers: as BodyPushes'. first_kind: of the tasks. All others must outlive this.
+    TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
+                   Buffer<float>* multipliers, int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets, int kind);

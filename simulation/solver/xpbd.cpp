@@ -1,8 +1,13 @@
 #include "simulation/solver/xpbd.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "kernels/descent/substep.h"
 #include "kernels/motion.h"
 #include "runtime/planning/regions.h"
 #include "simulation/contact/projection.h"
+#include "simulation/solver/body_momentum.h"
 
 namespace weft {
 
@@ -24,6 +29,7 @@ public:
         if (contact_) {
             kinds_ = contact_->kinds();
             projection_ = std::make_unique<ContactProjection>(model, *contact_);
+            find_bodies();
         }
         for (const auto& family : model.families) add_multipliers(*family);
         make_predict();
@@ -47,13 +53,17 @@ public:
         if (!contact_) return list;
         list.push_back(&push_);
         for (const TaskBody* body : contact_->bodies()) list.push_back(body);
+        if (momentum_) momentum_->list_bodies(list);
         return list;
     }
 
     std::vector<std::string> kinds() const override { return kinds_; }
 
     std::vector<RowTable*> tables() override {
-        return contact_ ? contact_->tables() : std::vector<RowTable*>{};
+        if (!contact_) return {};
+        auto tables = contact_->tables();
+        if (momentum_) std::ranges::copy(momentum_->tables(), std::back_inserter(tables));
+        return tables;
     }
     std::vector<BufferStorage*> state() override {
         return contact_ ? contact_->state() : std::vector<BufferStorage*>{};
@@ -63,6 +73,7 @@ public:
     std::vector<Buffer<float4>*> iterate() override {
         std::vector<Buffer<float4>*> buffers{model_.positions.get()};
         if (contact_) buffers.push_back(&contact_->snapshots());
+        if (momentum_ && model_.obstacles) buffers.push_back(targets_.get());
         return buffers;
     }
 
@@ -87,6 +98,7 @@ public:
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
+        if (momentum_) momentum_->add_sums(step, regions, model_.scene.solver.iterations - 1);
         for (const Region& region : regions) add_velocities(step, region);
         if (contact_) contact_->energy().add(step, regions, model_.scene.solver.iterations - 1);
         step.seal();
@@ -94,6 +106,22 @@ public:
     }
 
 private:
+    /// Projections keep momentum, but what planes take back is lost, and a few iterations let stiff
+    /// bodies sink into what bears them.
+    void find_bodies() {
+        targets_ = std::make_unique<Buffer<float4>>("targets", model_.positions->count());
+        momentum_ =
+            std::make_unique<BodyMomentum>(model_, contact_.get(), &projection_->multipliers(),
+                                           *targets_, static_cast<int>(kinds_.size()));
+        if (momentum_->has_bodies()) {
+            momentum_->look_at(*model_.positions);
+            std::ranges::copy(momentum_->kinds(), std::back_inserter(kinds_));
+        } else {
+            momentum_.reset();
+            targets_.reset();
+        }
+    }
+
     TaskBody new_kind(const std::string& name) {
         kinds_.push_back(name);
         return {name, static_cast<int>(kinds_.size()) - 1, {}};
@@ -133,6 +161,7 @@ private:
     }
 
     void add_obstacles(TaskBody& body) {
+        if (momentum_) return momentum_->add_obstacles(body.launches, *model_.positions);
         if (!model_.obstacles) return;
         model_.obstacles->add_launches(body.launches, model_.vertices(), *model_.positions,
                                        *model_.previous);
@@ -153,6 +182,10 @@ private:
         if (model_.moving_pins)
             model_.moving_pins->add_launches(predict_.launches, *model_.positions);
         // Free vertices are at x~ now.
+        if (momentum_) {
+            predict_.launches.push_back(
+                launch(kernels::copy_positions, model_.vertices(), *model_.positions, *targets_));
+        }
         if (contact_) contact_->add_begin(predict_.launches, *model_.positions);
     }
 
@@ -168,6 +201,7 @@ private:
             update(kernels::update_damped_velocities);
         else
             update(kernels::update_velocities);
+        if (momentum_) momentum_->add_moves(velocities_.launches);
         if (contact_) contact_->add_count(velocities_.launches);
     }
 
@@ -202,6 +236,7 @@ private:
         task.reads(*model_.velocities, begin, end)
             .updates(*model_.positions, begin, end)
             .updates(*model_.previous, begin, end);
+        if (momentum_) task.updates(*targets_, begin, end);
         if (contact_) contact_->add_begin_accesses(task, begin, end);
     }
 
@@ -213,6 +248,7 @@ private:
         task.reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
+        if (momentum_) momentum_->add_move_accesses(task, begin, end);
         if (contact_) contact_->add_count_accesses(task, begin, end);
     }
 
@@ -265,6 +301,7 @@ private:
         auto task = step.add(push_, iteration, region.strips(), region.id);
         projection_->add_project_accesses(task, iteration, region.begin, region.end);
         contact_->add_truncation_accesses(task, begin, end);
+        if (momentum_) return momentum_->add_obstacle_accesses(task, begin, end);
         if (model_.obstacles) task.reads(*model_.previous, begin, end);
     }
 
@@ -281,6 +318,8 @@ private:
     std::vector<std::string> kinds_;
     std::unique_ptr<ContactResponse> contact_;       ///< null: none
     std::unique_ptr<ContactProjection> projection_;  ///< likewise
+    std::unique_ptr<Buffer<float4>> targets_;  ///< [vertices] x~; null: no free bodies in contact
+    std::unique_ptr<BodyMomentum> momentum_;   ///< likewise
     TaskBody predict_, velocities_;
     TaskBody push_;              ///< empty: no contact
     std::vector<Group> groups_;  ///< in the order in which they are projected

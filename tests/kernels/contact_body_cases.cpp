@@ -42,6 +42,7 @@ struct Pushes {
           points(add_points(c, "points", rows.entries)),
           other_points(add_points(c, "other_points", rows.entries)),
           standing(add_points(c, "standing", c.items)) {
+        for (float4& point : points.span()) point.w = c.random.real(0.0f, 10.0f);
         for (float4& f : forces.span()) f = {1.0f, 2.0f, c.random.real(1.0f, 1e4f), kRange};
     }
 };
@@ -53,16 +54,18 @@ void collect_case(KernelCase& c) {
     auto& leaders = add_indices(c, "leaders", kSubsteps * kBodies, kBodies);
     OwnContacts contacts(c);
     for (float4& m : contacts.measures.span()) m.x += 0.5f;
+    auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
+    for (float& multiplier : multipliers.span()) multiplier = c.random.real(0.0f, 1e-3f);
     Pushes pushes(c);
     auto& needs = add_indices(c, "push_needs", c.items, 9);
-    c.launch = launch(kernels::collect_pushes, c.segments, contacts.positions, targets,
-                      columns.members, columns.shares, columns.rows, bodies, leaders,
-                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
-                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
-                      contacts.measures, contacts.slips, pushes.rows.rows, pushes.rows.counts,
-                      needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces, pushes.points,
-                      pushes.other_points, pushes.standing, c.items, kBodies,
-                      c.flavour == Flavour::kRandom ? 0.3f : 0.0f, kInstance);
+    c.launch = launch(
+        kernels::collect_pushes, c.segments, contacts.positions, targets, columns.members,
+        columns.shares, columns.rows, bodies, leaders, contacts.rows.rows, contacts.rows.counts,
+        contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3, contacts.normals,
+        contacts.weights, contacts.measures, contacts.slips, multipliers, pushes.rows.rows,
+        pushes.rows.counts, needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces,
+        pushes.points, pushes.other_points, pushes.standing, c.items, kBodies,
+        c.flavour == Flavour::kRandom ? 0.3f : 0.0f, c.random.integer(0, 1), 1e4f, kInstance);
 }
 
 void moments_case(KernelCase& c) {
@@ -122,11 +125,12 @@ void lags_case(KernelCase& c) {
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     Pushes pushes(c);
     auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
-    c.launch = launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses,
-                      moments, motions, strains, pushes.rows.rows, pushes.rows.counts, pushes.codes,
-                      pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
-                      partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-                      c.random.integer(0, 1), c.random.integer(0, 1), c.items, kBodies);
+    c.launch =
+        launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses, moments,
+               motions, strains, pushes.rows.rows, pushes.rows.counts, pushes.codes, pushes.sides,
+               pushes.slips, pushes.forces, pushes.points, pushes.other_points, partials,
+               c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, c.random.integer(0, 1), 1e-4f,
+               c.random.integer(0, 1), c.random.integer(0, 1), c.items, kBodies);
 }
 
 /// Forms of motions of so many: semi-definite, five rows of each; some are zero.

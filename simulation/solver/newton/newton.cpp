@@ -33,7 +33,7 @@ enum Kind {
     kDecide,
     kRevert,
     kVelocities,
-    kMomentum
+    kKinds
 };
 
 constexpr int kCoarseEvery = 5;  ///< iterations
@@ -59,7 +59,7 @@ struct Smoother {
                                            static_cast<float>(1.0 / (model.h * model.h))));
             body.taking_turns = static_cast<int>(body.launches.size());
         }
-        substep.add_obstacles(strips.launches, *model.positions);
+        substep.momentum().add_obstacles(strips.launches, *model.positions);
         if (contact == nullptr) return;
         contact->add_truncation(strips.launches, *model.positions);
         contact->add_snapshot(strips.launches, *model.positions);
@@ -75,7 +75,7 @@ public:
     explicit NewtonSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, kMomentum),
+          substep_(model, kKinds),
           contact_(substep_.contact()),
           gradients_(model, substep_),
           smoother_(model, substep_),
@@ -95,7 +95,6 @@ public:
             &predict_,         &linearise_,   &couple_,  &factor_, &invert_,
             &correct_,         &product_,     &advance_, &move_,   &smoother_.seams,
             &smoother_.strips, &energy_body_, &decide_,  &revert_, &velocities_};
-        if (substep_.has_free_bodies()) list.push_back(&momentum_);
         substep_.list_bodies(list);
         return list;
     }
@@ -119,7 +118,7 @@ public:
         add_check(step);
         for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
-        substep_.add_momentum(step, momentum_, regions_, *model_.positions, number_);
+        substep_.momentum().add_sums(step, regions_, number_);
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
         substep_.add_measurements(step, regions_, number_);
         step.seal();
@@ -162,7 +161,7 @@ private:
         predict_ = {"predict", kPredict, substep_.begin()};
         predict_.launches.push_back(copy(*model_.previous, before));
         predict_.launches.push_back(copy(*model_.previous, after));
-        substep_.add_obstacles(predict_.launches, *model_.positions);
+        substep_.momentum().add_obstacles(predict_.launches, *model_.positions);
         linearise_ = {"linearise", kLinearise, gradients_.linearise()};
         couple_ = {"coarse", kCoarse, gradients_.coarse().couple(gradients_.linearised_at())};
         factor_ = {"factor", kFactor, gradients_.coarse().factor()};
@@ -171,9 +170,7 @@ private:
         product_ = {"product", kProduct, gradients_.product()};
         advance_ = {"advance", kAdvance, gradients_.advance()};
         make_control_bodies();
-        if (substep_.has_free_bodies()) {
-            momentum_ = {"momentum", kMomentum, substep_.sum_momentum(*model_.positions)};
-        }
+        substep_.momentum().look_at(*model_.positions);
         velocities_ = {"velocities", kVelocities, substep_.end()};
     }
 
@@ -187,7 +184,7 @@ private:
                   launch(kernels::move_by_solution, model_.vertices(), before, gradients_.moves(),
                          control_, positions, model_.vertex_count()),
                   copy(positions, after)}};
-        substep_.add_obstacles(move_.launches, *model_.positions);
+        substep_.momentum().add_obstacles(move_.launches, *model_.positions);
         if (contact_ != nullptr) {
             contact_->add_truncation(move_.launches, *model_.positions);
             contact_->add_snapshot(move_.launches, *model_.positions);
@@ -323,7 +320,7 @@ private:
 
     /// Of obstacles, and of contacts.
     void add_last_word_accesses(Step::Adding& task, int first, int last) {
-        substep_.add_obstacle_accesses(task, first, last);
+        substep_.momentum().add_obstacle_accesses(task, first, last);
         if (contact_ == nullptr) return;
         contact_->add_truncation_accesses(task, first, last);
         contact_->add_snapshot_accesses(task, number_, first, last);
@@ -402,7 +399,6 @@ private:
     Buffer<int> first_strip_;  ///< one item, in strip 0
     TaskBody predict_, linearise_, couple_, factor_, invert_, correct_, product_, advance_;
     TaskBody move_, energy_body_, decide_, revert_, velocities_;
-    TaskBody momentum_;            ///< empty: no free bodies
     std::vector<Region> regions_;  ///< of the step that is made
     int number_ = 0;               ///< of its tasks; traces call it their iteration
 };

@@ -57,7 +57,7 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
                    strains, rows, counts, codes, entries, entries, entries, entries, entries,
-                   partials, 0.0f, 1.0f, 1e-4f, has_moved, 0, 1, 1);
+                   partials, 0.0f, 1.0f, 0, 1e-4f, has_moved, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5].x;
     };
@@ -65,6 +65,39 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     EXPECT_EQ(lag_of_round(0), 0.25f);
     for (float4& motion : motions.span()) motion = {0.125f, 0.0f, 0.0f, 0.0f};
     EXPECT_EQ(lag_of_round(1), 0.125f);
+}
+
+/// Xpbd knows how hard contacts press, whatever their gaps are by now.
+TEST(BodiesAsWholes, WhatIsPressedRubsByThatAlone) {
+    constexpr float kPress = 50.0f, kFriction = 0.5f, kRange = 0.02f, kYielding = 1e-4f;
+    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12),
+        strains("strains", 4), sides("sides", 1), slips("slips", 1), forces("forces", 1),
+        points("points", 1), others("other_points", 1), partials("partials", WEFT_BODY_PARTS);
+    Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
+    Buffer<float> masses("masses", 1);
+    counts[0] = 1;
+    codes[0] = 2;
+    masses[0] = 1.0f;
+    slips[0] = {0.01f, 0.0f, 0.0f, kRange};
+    forces[0] = {1.0f, 2.0f, 1e4f, kRange};
+    points[0] = {0.0f, 0.0f, 0.0f, kPress};
+    const auto lag_at = [&](float gap, int is_pressed) {
+        sides[0] = {0.0f, 1.0f, 0.0f, gap};
+        const Launch launched =
+            launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
+                   strains, rows, counts, codes, sides, slips, forces, points, others, partials,
+                   kFriction, 1e-3f, is_pressed, kYielding, 0, 0, 1, 1);
+        run_on_host(launched, launched.kernel->scalar, 0, 1);
+        return partials[5];
+    };
+    const float rubbed = kYielding * kFriction * kPress;
+    EXPECT_NEAR(lag_at(1.5f * kRange, 1).x, -rubbed, 1e-6f * rubbed);
+    EXPECT_EQ(lag_at(1.5f * kRange, 1).y, 0.0f);
+    EXPECT_NEAR(lag_at(0.6f * kRange, 1).x, -rubbed, 1e-6f * rubbed);
+    const float pushed = kYielding * 1e4f * 0.4f * kRange;
+    EXPECT_NEAR(lag_at(0.6f * kRange, 1).y, pushed, 1e-5f * pushed);
+    EXPECT_NEAR(lag_at(0.6f * kRange, 0).x, -kFriction * pushed, 1e-5f * pushed);
+    EXPECT_EQ(lag_at(1.5f * kRange, 0).x, 0.0f);
 }
 
 /// Its elements know best, and the bits stay those of a scene without contacts.
@@ -91,6 +124,7 @@ struct CrossedEdges {
         corner2{"corner2", kVertices}, corner3{"corner3", kVertices};
     Buffer<float4> normals{"normals", kVertices}, weights{"weights", kVertices},
         measures{"measures", kVertices};
+    Buffer<float> multipliers{"multipliers", kVertices};
     Buffer<int> push_rows{"push_rows", 4}, push_counts{"push_counts", 2},
         push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_CONTACT_STRIDE*kRoom};
     Buffer<float4> sides{"sides", codes.count()}, slips{"slips", codes.count()},
@@ -116,6 +150,7 @@ struct CrossedEdges {
             corner3[e] = 3;
             bodies[e] = v / 2;
             normals[e] = {0.0f, side, 0.0f, 0.01f};
+            multipliers[e] = 0.5f;
             weights[e] = {side * quarters[0], side * quarters[1], side * quarters[2],
                           side * quarters[3]};
             measures[e] = {own, 2.0f * own, 100.0f, 0.02f};
@@ -134,11 +169,11 @@ struct CrossedEdges {
     }
 
     void collect() {
-        const Launch launched =
-            launch(kernels::collect_pushes, Segments{}, positions, targets, members, shares,
-                   columns, bodies, leaders, rows, counts, corner0, corner1, corner2, corner3,
-                   normals, weights, measures, normals, push_rows, push_counts, push_needs, codes,
-                   sides, slips, forces, points, other_points, standing, 2, 2, 0.0f, 0);
+        const Launch launched = launch(
+            kernels::collect_pushes, Segments{}, positions, targets, members, shares, columns,
+            bodies, leaders, rows, counts, corner0, corner1, corner2, corner3, normals, weights,
+            measures, normals, multipliers, push_rows, push_counts, push_needs, codes, sides, slips,
+            forces, points, other_points, standing, 2, 2, 0.0f, 1, 100.0f, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 2);
     }
 };
@@ -154,6 +189,7 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
         EXPECT_EQ(edges.standing[body].w, 1.0f);
+        EXPECT_EQ(edges.points[body].w, 50.0f);
         EXPECT_NEAR(edges.points[body].x, 0.0f, 1e-7f);
         EXPECT_NEAR(edges.points[body].y, body == 0 ? 0.01f : 0.0f, 1e-7f);
         EXPECT_EQ(edges.points[body].y, edges.other_points[1 - body].y);

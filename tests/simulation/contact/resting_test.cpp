@@ -135,7 +135,6 @@ struct Column {
 
 /// Each block is pushed by its weight: what lies below it carries all that is above.
 TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "presses more than it weighs: docs/contact.md";
     for (const double pushed : Column(GetParam(), 8).pushed) EXPECT_NEAR(pushed, 1.0, 0.1);
 }
 
@@ -190,8 +189,7 @@ double momentum_lost(ManualRun& run) {
 TEST_P(Resting, HeadOnCollisionsKeepMomentum) {
     for (const int iterations : {2, 8}) {
         ManualRun run(scene_of(meeting_blocks(iterations, 10, 1.0)));
-        const bool is_xpbd = GetParam() == Method::kXpbd;
-        EXPECT_LT(momentum_lost(run), is_xpbd ? 0.1 : 1e-5) << iterations << " iterations";
+        EXPECT_LT(momentum_lost(run), 1e-5) << iterations << " iterations";
         EXPECT_LT(momentum_of(run, 0).velocity.x, -0.1) << "they part";
     }
 }
@@ -214,7 +212,6 @@ std::string glancing_blocks(int iterations) {
 
 /// Blocks that meet off their centres, and turn each other.
 TEST_P(Resting, OffCentreCollisionsKeepAngularMomentum) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "has no steps of bodies: docs/contact.md";
     for (const int iterations : {2, 8}) {
         ManualRun run(scene_of(glancing_blocks(iterations)));
         start_meeting(run, {1.0, 0.0, 0.0});
@@ -247,13 +244,11 @@ TEST_P(Resting, TurnedCollisionsGiveTheTurnedResult) {
     EXPECT_LT(difference(run_turned(0.0), run_turned(40.0)), 1e-3);
 }
 
-/// (By xpbd with substeps that let its contacts stop them.)
 TEST_P(Resting, HeavyOnesKeepMomentumToo) {
-    const bool is_xpbd = GetParam() == Method::kXpbd;
     for (const double ratio : {10.0, 100.0}) {
         for (const int iterations : {2, 8}) {
-            ManualRun run(scene_of(meeting_blocks(iterations, is_xpbd ? 40 : 10, ratio)));
-            EXPECT_LT(momentum_lost(run), is_xpbd ? 0.05 : 2e-4)
+            ManualRun run(scene_of(meeting_blocks(iterations, 10, ratio)));
+            EXPECT_LT(momentum_lost(run), 2e-4)
                 << "1 : " << ratio << ", " << iterations << " iterations";
             EXPECT_LT(momentum_of(run, 0).velocity.x, -1.0) << "the light one turns round";
         }
@@ -262,7 +257,6 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
 
 /// 1 : 1000.
 TEST_P(Resting, LightBlockBearsAHeavyOne) {
-    if (GetParam() == Method::kXpbd) GTEST_SKIP() << "lets it sink, and says so: energy_test.cpp";
     const int iterations = GetParam() == Method::kJpgd ? 40 : 8;
     ManualRun run(scene_of(head(iterations, "friction = 0.5\n") + kFloor +
                            block("light", {0, 0.0535, 0}, 2.0, 1e6, 0) +
@@ -279,8 +273,6 @@ TEST_P(Resting, LightBlockBearsAHeavyOne) {
 /// it press too hard is many times the light one's weight; in one round of the bodies' steps that
 /// threw it aside by tens of centimetres.
 TEST_P(Resting, LightBlockIsNotThrownByAHeavyOne) {
-    if (GetParam() == Method::kXpbd)
-        GTEST_SKIP() << "has no steps of bodies, and says so if it fails";
     Scene scene = parse_scene(R"(
 [scene]
 frames = 30

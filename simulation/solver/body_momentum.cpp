@@ -1,0 +1,106 @@
+#include "simulation/solver/body_momentum.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "kernels/descent/free_bodies.h"
+#include "kernels/descent/substep.h"
+
+namespace weft {
+
+BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
+                           Buffer<float4>& targets, int first_kind)
+    : model_(model),
+      contact_(contact),
+      targets_(targets),
+      free_bodies_(FreeBodies::of(model)),
+      sums_{"momentum", first_kind, {}} {
+    if (contact && free_bodies_) {
+        touching_ = std::make_unique<TouchingBodies>(model, *free_bodies_, *contact, multipliers,
+                                                     first_kind + 1);
+    }
+    if (model.obstacles || touching_)
+        pushed_ = std::make_unique<Buffer<float4>>("pushed", targets.count());
+}
+
+void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
+    if (!model_.obstacles) return;
+    launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
+    model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous);
+    launches.push_back(
+        launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
+}
+
+void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last) {
+    if (!model_.obstacles) return;
+    task.updates(targets_, first, last).reads(*model_.previous, first, last);
+}
+
+void BodyMomentum::look_at(Buffer<float4>& positions) {
+    positions_ = &positions;
+    if (touching_)
+        sums_.launches = touching_->sum(positions, targets_, sums_.kind);
+    else if (free_bodies_)
+        sums_.launches = free_bodies_->sum(positions, targets_);
+}
+
+void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
+    if (!free_bodies_) return;
+    if (touching_) return touching_->add_rounds(step, sums_, regions, *positions_, iteration);
+    for (const Region& region : regions) {
+        if (!free_bodies_->reach_into(region.begin, region.end)) continue;
+        const int first = model_.vertices().item(region.begin);
+        const int last = model_.vertices().item(region.end);
+        auto task = step.add(sums_, iteration, region.strips(), region.id);
+        task.reads(targets_, first, last).reads(*positions_, first, last);
+        free_bodies_->add_sum_accesses(task, region.begin, region.end);
+    }
+}
+
+/// A shift may lead into what pushes.
+void BodyMomentum::add_moves(std::vector<Launch>& launches) {
+    if (!free_bodies_) return;
+    if (touching_)
+        launches.push_back(touching_->move(model_, targets_));
+    else
+        std::ranges::move(free_bodies_->shift(model_, targets_), std::back_inserter(launches));
+    if (!pushed_) return;
+    launches.push_back(
+        launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
+    if (model_.obstacles) {
+        model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
+                                       *model_.previous);
+    }
+    if (contact_) contact_->add_truncation(launches, *model_.positions);
+    launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,
+                              *pushed_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
+}
+
+void BodyMomentum::add_move_accesses(Step::Adding& task, int first, int last) {
+    if (!free_bodies_) return;
+    if (touching_)
+        touching_->add_motion_accesses(task);
+    else
+        free_bodies_->add_shift_accesses(task);
+    if (contact_) contact_->add_truncation_accesses(task, first, last);
+    task.updates(*model_.positions, first, last).updates(targets_, first, last);
+}
+
+void BodyMomentum::list_bodies(std::vector<const TaskBody*>& bodies) const {
+    if (free_bodies_) bodies.push_back(&sums_);
+    if (touching_) std::ranges::copy(touching_->bodies(), std::back_inserter(bodies));
+}
+
+std::vector<std::string> BodyMomentum::kinds() const {
+    std::vector<std::string> names;
+    if (free_bodies_) names.push_back(sums_.name);
+    if (touching_) std::ranges::copy(touching_->kinds(), std::back_inserter(names));
+    return names;
+}
+
+std::vector<RowTable*> BodyMomentum::tables() {
+    if (!touching_) return {};
+    return {&touching_->table()};
+}
+
+}  // namespace weft

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "runtime/planning/regions.h"
+#include "runtime/step.h"
+#include "simulation/contact/response.h"
+#include "simulation/model/model.h"
+#include "simulation/solver/touching_bodies.h"
+
+namespace weft {
+
+/// What keeps the momentum of bodies that nothing holds, however far iterations get. Behind the
+/// last one they are moved as wholes: by what is missing (kernels/descent/free_bodies.h), and in
+/// scenes with contact as far as what touches them lets them (kernels/contact/bodies.h). Pushes by
+/// obstacles are no loss: they move x~ along, which is to be told behind each iteration.
+class BodyMomentum {
+public:
+    /// contact: null: none. multipliers: [entries of its rows] by which contacts rub; null: they do
+    /// so as their gaps say. targets: [vertices] x~. first_kind: of the tasks, if there are any.
+    /// All others must outlive this.
+    BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
+                 Buffer<float4>& targets, int first_kind);
+
+    bool has_bodies() const { return free_bodies_ != nullptr; }
+
+    /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
+    void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
+    /// What that needs of vertices [first, last), besides the positions.
+    void add_obstacle_accesses(Step::Adding& task, int first, int last);
+
+    /// positions: those after the last iteration. Before anything that follows here.
+    void look_at(Buffer<float4>& positions);
+    /// Adds up what is missing, behind the last iteration of all regions; nothing without bodies.
+    void add_sums(Step& step, const std::vector<Region>& regions, int iteration);
+
+    /// Moves bodies, behind the velocities of a substep; obstacles and contacts have the last word.
+    void add_moves(std::vector<Launch>& launches);
+    /// What that needs of vertices [first, last).
+    void add_move_accesses(Step::Adding& task, int first, int last);
+
+    void list_bodies(std::vector<const TaskBody*>& bodies) const;
+    std::vector<std::string> kinds() const;
+    std::vector<RowTable*> tables();
+
+private:
+    Model& model_;
+    ContactResponse* contact_;
+    Buffer<float4>& targets_;
+    Buffer<float4>* positions_ = nullptr;
+    std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
+    std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
+    std::unique_ptr<Buffer<float4>> pushed_;    ///< null: nothing pushes
+    TaskBody sums_;                             ///< empty: no free bodies
+};
+
+}  // namespace weft
