@@ -8,11 +8,15 @@
 // plastic slip, Simo and Laursen 1992).
 //
 // Contacts are found anew in each substep, so vertices keep slips, not contacts: each as much as
-// its contacts say on average, weighted by how they press, and of each contact its part, such that
-// the parts of all its vertices that move add up to the slip. A vertex of cloth is rubbed on both
-// sides and keeps a slip for each: on the side of a reference r, and on the other one.
+// its contacts say on average, weighted by how they (nearly) press, and of each contact its part,
+// such that the parts of all its vertices that move add up to the slip. A vertex of cloth is rubbed
+// on both sides and keeps a slip for each: on the side of a reference r, and on the other one.
 
 #include "kernels/contact/rows.h"
+
+/// By how much of their range contacts may be open and yet keep their slips. After a few iterations
+/// what presses comes and goes from substep to substep; who forgot slips on that would creep.
+#define WEFT_STICKING_GAP 0.01f
 
 WEFT_KERNELS_BEGIN
 
@@ -110,7 +114,8 @@ WEFT_KERNEL(keep_slips, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const i
         contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
                                        weights, measures, entry);
         c = with_earlier_slip(c, slips, entry);
-        const real slope = contact_slope(c.gap, c.range, c.stiffness);
+        const real gap = c.gap - splat(WEFT_STICKING_GAP) * c.range;
+        const real slope = contact_slope(gap, c.range, c.stiffness);
         const real press = on ? -slope * c.own : zero;
         // The part of one whose weight is W of all that move, and no more than sticks.
         const real part = on ? c.own / c.spread : zero;

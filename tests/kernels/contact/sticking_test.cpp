@@ -137,6 +137,20 @@ TEST(Sticking, KeepsASlipForEachSide) {
     EXPECT_NEAR(pile.slip_on_lower(2), slip, 1e-8f);
 }
 
+/// After a few iterations what presses comes and goes.
+TEST(Sticking, KeepsASlipWhereAContactHardlyOpens) {
+    const float to_the_range = kRange - kGap;
+    for (const float gap : {0.9f * WEFT_STICKING_GAP, 1.1f * WEFT_STICKING_GAP}) {
+        Pile pile(2, true);
+        pile.find();
+        pile.lift(to_the_range + gap * kRange);
+        pile.end({0.0f, 0.4f * kCreep});
+        pile.find();
+        const float kept = gap < WEFT_STICKING_GAP ? 0.4f * kCreep : 0.0f;
+        EXPECT_NEAR(pile.slip_on_lower(1), kept, 1e-8f);
+    }
+}
+
 TEST(Sticking, ForgetsWhatHasParted) {
     Pile pile(2, true);
     pile.find();
