@@ -23,20 +23,21 @@ WEFT_KERNELS_BEGIN
 /// control     see control.h
 /// weights     [iterations] w of the n-th iteration after a start; 1 for n = 0
 /// inverse_h2  1 / h^2 [1/s^2], h the substep
+/// size        which part of the step is taken: alpha
 /// accelerated    1, or 0 for a step of the vertex that is neither extrapolated nor summed up
-WEFT_INLINE real3
-preconditioned_move(WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* next,
-                    WEFT_GLOBAL const float4* residue, WEFT_GLOBAL const float4* next_residue,
-                    WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const float* sums,
-                    WEFT_GLOBAL const float* control, WEFT_GLOBAL const float* weights,
-                    int vertex_count, float inverse_h2, int iteration, real accelerated, item i) {
+WEFT_INLINE real3 preconditioned_move(
+    WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* next,
+    WEFT_GLOBAL const float4* residue, WEFT_GLOBAL const float4* next_residue,
+    WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const float* sums,
+    WEFT_GLOBAL const float* control, WEFT_GLOBAL const float* weights, int vertex_count,
+    float inverse_h2, int iteration, float size, real accelerated, item i) {
     const real4 x = load4(positions, i);
     const derivatives s = load_derivatives(sums, i, vertex_count);
 
     const real inertia = inverse_h2 / (x.w > splat(0.0f) ? x.w : splat(1.0f));
     const real3 force =
         subtract(scale(subtract(xyz(load4(targets, i)), xyz(x)), inertia), s.gradient);
-    const real alpha = x.w > splat(0.0f) ? splat(control[WEFT_STEP_SIZE]) : splat(0.0f);
+    const real alpha = x.w > splat(0.0f) ? splat(size) : splat(0.0f);
     real3 move = scale(solve_sym(add_diagonal(s.hessian, inertia), force), alpha);
     const int turn = iteration - (int)control[WEFT_START];
     if (turn > 0) {
@@ -58,9 +59,9 @@ WEFT_KERNEL(step_preconditioned, WEFT_GLOBAL const float4* positions, WEFT_GLOBA
             WEFT_GLOBAL const float* control, WEFT_GLOBAL const float* weights, int vertex_count,
             float inverse_h2, int iteration) {
     const real4 x = load4(positions, i);
-    const real3 move =
-        preconditioned_move(positions, next, residue, next_residue, targets, sums, control, weights,
-                            vertex_count, inverse_h2, iteration, splat(1.0f), i);
+    const real3 move = preconditioned_move(positions, next, residue, next_residue, targets, sums,
+                                           control, weights, vertex_count, inverse_h2, iteration,
+                                           control[WEFT_STEP_SIZE], splat(1.0f), i);
     const real3 sum = add(xyz(x), move);
     store4(next, i, with_w(sum, x.w));
     store4(next_residue, i, with_w(subtract(move, subtract(sum, xyz(x))), splat(0.0f)));

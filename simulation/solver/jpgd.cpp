@@ -160,6 +160,7 @@ private:
             refreshes_[p] = {"refresh", kRefresh, derivatives_.gather(kInnerPhase, after(parity))};
             steps_[p] = {"step", kStep, derivatives_.gather_gradients(kInnerPhase, after(parity))};
             if (contact_) {
+                refreshes_[p].launches.push_back(bound_elements());
                 refreshes_[p].launches.push_back(contact_->gather_at(
                     items_.segments(kInnerPhase), after(parity), items_, derivatives_.sums()));
             }
@@ -182,6 +183,11 @@ private:
 
     Launch keep_or_revert(Buffer<float4>& values, Buffer<float4>& kept) {
         return launch(kernels::keep_or_revert, model_.vertices(), values, kept, control_);
+    }
+
+    Launch bound_elements() {
+        return launch(kernels::bound_elements, model_.vertices(), derivatives_.sums(), control_,
+                      items_.count());
     }
 
     Launch descend(int parity) {

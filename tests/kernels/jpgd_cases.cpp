@@ -161,6 +161,11 @@ void step_beside_contacts_case(KernelCase& c) {
                       1e2f, 1 + c.items % 3);
 }
 
+void bound_case(KernelCase& c) {
+    StepCase s(c);
+    c.launch = launch(kernels::bound_elements, c.segments, s.sums, s.control, c.items);
+}
+
 void drop_case(KernelCase& c) {
     auto& cut = add_zeros_and_ones(c, "cut");
     auto& residue = add_points(c, "residue", c.items);
@@ -175,7 +180,7 @@ const bool added =
     add_case("decide_step", decide_case) && add_case("keep_or_revert", revert_case) &&
     add_case("step_preconditioned", step_case) &&
     add_case("step_beside_contacts", step_beside_contacts_case) &&
-    add_case("drop_residues", drop_case);
+    add_case("bound_elements", bound_case) && add_case("drop_residues", drop_case);
 
 }  // namespace
 }  // namespace weft::test

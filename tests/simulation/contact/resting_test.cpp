@@ -248,7 +248,7 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
     for (const double ratio : {10.0, 100.0}) {
         for (const int iterations : {2, 8}) {
             ManualRun run(scene_of(meeting_blocks(iterations, 10, ratio)));
-            EXPECT_LT(momentum_lost(run), 2e-4)
+            EXPECT_LT(momentum_lost(run), GetParam() == Method::kJpgd ? 5e-3 : 2e-4)
                 << "1 : " << ratio << ", " << iterations << " iterations";
             EXPECT_LT(momentum_of(run, 0).velocity.x, -1.0) << "the light one turns round";
         }
@@ -257,8 +257,7 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
 
 /// 1 : 1000.
 TEST_P(Resting, LightBlockBearsAHeavyOne) {
-    const int iterations = GetParam() == Method::kJpgd ? 40 : 8;
-    ManualRun run(scene_of(head(iterations, "friction = 0.5\n") + kFloor +
+    ManualRun run(scene_of(head(8, "friction = 0.5\n") + kFloor +
                            block("light", {0, 0.0535, 0}, 2.0, 1e6, 0) +
                            block("heavy", {0, 0.157, 0}, 2000.0, 1e6, 0)));
     run.run(30);

@@ -103,20 +103,18 @@ TEST_P(Unconverged, RubsOnClothAsCoulombSays) {
         ManualRun run(scene);
         gain(run, 0.1);
         for (int part = 1; part <= 2; ++part) {
-            const double tolerance = iterations == 2 ? 0.15 : 0.015;
+            const double tolerance = iterations == 2 ? 0.1 : 0.015;
             EXPECT_NEAR(gain(run, 0.1), 1.0, tolerance)
                 << iterations << " iterations, part " << part;
         }
     }
 }
 
-/// On the other side of tan = mu: what sticks stays. (By jpgd what presses comes and goes, and few
-/// iterations let it creep: docs/contact.md.)
+/// On the other side of tan = mu: what sticks stays, but for the way in which it comes to rest.
 TEST_P(Unconverged, SticksToClothAsCoulombSays) {
     const std::string friction = kContact + "friction = 0.4\n";
-    const bool is_jpgd = GetParam() == Method::kJpgd;
-    const double most = is_jpgd ? 2e-4 : 2e-6;
-    for (const int iterations : {is_jpgd ? 40 : 8, 40}) {
+    const double most = GetParam() == Method::kJpgd ? 2e-4 : 2e-6;
+    for (const int iterations : {8, 40}) {
         ManualRun run(on_slope(head(iterations, friction) + kSlope + stiff(0.0034, 13)));
         run.run(12);
         const double before = momentum_of(run, 1).place.x;

@@ -40,7 +40,7 @@ const TestScene kScenes[] = {
     {"VbdRubbing", kRubbing, Method::kVbd, "2d828bc814870a3e7fd1a81897668bb5"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "344f898d221259e96b4ba8380ba4799e"},
     {"SosdTouching", kTouching, Method::kSosd, "5dead7c2e7e304da39a95c06aa083416"},
-    {"JpgdTouching", kTouching, Method::kJpgd, "590f24726482af7f6c8728d481ddbc19"},
+    {"JpgdTouching", kTouching, Method::kJpgd, "b8db8382fc8d4e8228420a473a747da1"},
     {"NewtonTouching", kTouching, Method::kNewton, "86cc70d1a0c87022878bdf2b3a77ac10"},
     {"NewtonRubbing", kRubbing, Method::kNewton, "093b93d96d9ad0e3e4900542955f6ebe"},
     {"XpbdTouching", kTouching, Method::kXpbd, "2de008d4159dc8a838fd828d7e1ccd43"},
