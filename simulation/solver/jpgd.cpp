@@ -20,7 +20,10 @@ enum Kind { kPredict, kEnergy, kDecide, kRevert, kRefresh, kStep, kVelocities, k
 constexpr int kCheckEvery = 8;    ///< iterations
 constexpr int kRefreshEvery = 8;  ///< iterations, from this one on; before it, every one
 constexpr float kSlack = 1.00001f;
-constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles, or back from contacts' planes
+constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles
+/// Planes that take back what x~ leads through them do work as well. In collisions E rose by up to
+/// 8 times on that; going back to the substep's start then threw away all that contacts had done.
+constexpr float kSlackWithContacts = 16.0f;
 
 /// Whether the blocks are taken anew. Wang and Yang 2016 do so every 32 iterations; but the first
 /// iterations are those that bend and stretch, and blocks of springs at rest know nothing of what
@@ -148,8 +151,7 @@ private:
         decide_ = {"decide",
                    kDecide,
                    {launch(kernels::decide_step, first, control_, energy_.partials(),
-                           static_cast<int>(energy_.partials().count()),
-                           model_.obstacles || contact_ ? kSlackWithPushes : kSlack, kIteration)}};
+                           static_cast<int>(energy_.partials().count()), slack(), kIteration)}};
         for (const int parity : {0, 1}) {
             const auto p = static_cast<std::size_t>(parity);
             energies_[p] = {"energy", kEnergy, energy_.launches(after(parity))};
@@ -179,6 +181,11 @@ private:
         }
         const auto end = substep_.end();
         velocities_.launches.insert(velocities_.launches.end(), end.begin(), end.end());
+    }
+
+    float slack() const {
+        if (contact_) return kSlackWithContacts;
+        return model_.obstacles ? kSlackWithPushes : kSlack;
     }
 
     Launch keep_or_revert(Buffer<float4>& values, Buffer<float4>& kept) {

@@ -248,7 +248,7 @@ TEST_P(Resting, HeavyOnesKeepMomentumToo) {
     for (const double ratio : {10.0, 100.0}) {
         for (const int iterations : {2, 8}) {
             ManualRun run(scene_of(meeting_blocks(iterations, 10, ratio)));
-            EXPECT_LT(momentum_lost(run), GetParam() == Method::kJpgd ? 5e-3 : 2e-4)
+            EXPECT_LT(momentum_lost(run), 2e-4)
                 << "1 : " << ratio << ", " << iterations << " iterations";
             EXPECT_LT(momentum_of(run, 0).velocity.x, -1.0) << "the light one turns round";
         }
