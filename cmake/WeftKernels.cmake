@@ -29,20 +29,15 @@ function(weft_add_kernels target)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/EmbedKernels.cmake)
 
   # -fno-math-errno: square roots become instructions; it changes no bit of a result.
-  # -Wno-psabi: packs of 8 never cross a file's border, so how they would be passed does not matter.
+  # -Wno-psabi: packs never cross a file's border, so how they would be passed does not matter.
   set(strict -O3 -fno-fast-math -ffp-contract=off -fno-math-errno)
-  set(packed ${strict} -fno-trapping-math -Wno-psabi)
   set(anchors "")
   _weft_kernel_sources(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
-  _weft_kernel_sources(packed
-      "#define WEFT_PACKED_TARGET packed\n#define WEFT_PACKED_ID Target::kPacked" "${packed}")
+  _weft_packed_sources(packed kPacked 8 "")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    _weft_kernel_sources(packed_avx2
-        "#define WEFT_PACKED_TARGET packed_avx2\n#define WEFT_PACKED_ID Target::kPackedAvx2"
-        "${packed};-mavx2")
-    _weft_kernel_sources(packed_avx512
-        "#define WEFT_PACKED_TARGET packed_avx512\n#define WEFT_PACKED_ID Target::kPackedAvx512"
-        "${packed};-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
+    _weft_packed_sources(packed_avx2 kPackedAvx2 8 "-mavx2")
+    _weft_packed_sources(packed_avx512 kPackedAvx512 16
+                         "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
   endif()
   _weft_kernel_text()
 
@@ -85,6 +80,15 @@ macro(_weft_kernel_paths root headers)
       string(APPEND includes_${of} "#include \"${name}\"\n")
     endif()
   endforeach()
+endmacro()
+
+# target_name: of kernels/registry.h; lanes: of its packs
+macro(_weft_packed_sources variant target_name lanes flags)
+  string(CONCAT definitions "#define WEFT_PACKED_TARGET ${variant}\n"
+                "#define WEFT_PACKED_ID Target::${target_name}\n"
+                "#define WEFT_PACKED_LANES ${lanes}")
+  _weft_kernel_sources(${variant} "${definitions}"
+                       "${strict};-fno-trapping-math;-Wno-psabi;${flags}")
 endmacro()
 
 # A source per folder of headers: a change compiles that folder anew, not everything. A kernel that

@@ -22,9 +22,9 @@
 //                            for all of them
 //   smallest_real(r), largest_real(r)   likewise: a float
 //
-// "The items at hand" are 8 or fewer, or one, as the target has it; lanes beyond the last repeat
-// it. So what any_item() and its like say differs from target to target. It may only decide how
-// long work goes on that changes nothing where it need not be done:
+// "The items at hand" are 16, 8 or fewer, or one, as the target has it; lanes beyond the last
+// repeat it. So what any_item() and its like say differs from target to target. It may only decide
+// how long work goes on that changes nothing where it need not be done:
 //
 //   for (int k = 0; k < largest_whole(length); ++k) {       bound uniform per pack
 //       const mask on = splat_whole(k) < length;            ... what counts for this item
@@ -33,6 +33,7 @@
 //   while (any_item(going)) { ... going = both(going, ...); }  each item as long as it has to
 
 #include "kernels/platform.h"
+#include "kernels/row_stride.h"
 
 #if defined(__OPENCL_C_VERSION__)
 #include "kernels/platform/opencl_lanes.h"

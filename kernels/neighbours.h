@@ -8,9 +8,6 @@
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
-/// Between the entries of one row: rows lie in slices of 8 items, as in kernels/descent/rows.h.
-#define WEFT_ROW_STRIDE 8
-
 /// Rounds of part_neighbours, at the most.
 #define WEFT_PARTING_ROUNDS 4
 
@@ -26,10 +23,10 @@ WEFT_KERNELS_BEGIN
 /// others      [entries] written: the other point
 /// squares     [entries] written: the square of the distance [m^2]
 /// radius      [m]
-WEFT_KERNEL(find_neighbours, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* ranges,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, WEFT_GLOBAL float* squares, int item_count, float radius,
-            int instance) {
+WEFT_NARROW_KERNEL(find_neighbours, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* ranges,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+                   WEFT_GLOBAL int* others, WEFT_GLOBAL float* squares, int item_count,
+                   float radius, int instance) {
     const whole self = item_numbers(i);
     const whole start = load_whole(rows, i);
     const whole room = load_whole(rows, column(i, item_count, 1));
@@ -64,9 +61,9 @@ WEFT_KERNEL(find_neighbours, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const
 /// radius.
 /// positions   [items] xyz [m], w = 1/mass [1/kg]; read, and written where it changes
 /// points, rows, counts, others, squares, radius  as in find_neighbours
-WEFT_KERNEL(part_neighbours, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* points,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* others, WEFT_GLOBAL const float* squares, float radius) {
+WEFT_NARROW_KERNEL(part_neighbours, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* points,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* others, WEFT_GLOBAL const float* squares, float radius) {
     const whole start = load_whole(rows, i);
     const whole count = load_whole(counts, i);
     const real4 before = load4(positions, i);

@@ -7,16 +7,18 @@
 // A kernel is written once, on the words below, and becomes
 //   OpenCL C 1.2, one item or 8 items per work-item     platform/opencl.h
 //   scalar C++, one item at a time                      platform/scalar.h
-//   packed C++, 8 items at a time                       platform/packed.h
+//   packed C++, 8 or 16 items at a time                 platform/packed.h
 // and gives the same bits in all of them: only + - * / square_root() and comparisons, never
 // contracted, always correctly rounded. Helpers without loads and stores (element energies) compile
 // with real = double, too, for the reference solver: platform/in_double.h.
 //
 // WEFT_KERNEL(name, parameters...) { ... } between WEFT_KERNELS_BEGIN and WEFT_KERNELS_END is a
-// kernel; motion.h has short ones. Its words:
+// kernel; motion.h has short ones. With WEFT_NARROW_KERNEL packs have 8 items at the most: where
+// items wait for the slowest of their pack, or for all of them (any_item() and others of lanes.h),
+// wider packs lose more than they gain. The words:
 //
 //   i                  the item, in a kernel's body
-//   real, integer      one value per item: a float, an int, or 8 of them
+//   real, integer      one value per item: a float, an int, or 8 or 16 of them
 //   real3, real4       structs of real; vector.h has their arithmetic
 //   item               the items of this call: kLanes of them, or fewer at the end of a range
 //   splat(f)           the same value for every item
@@ -27,7 +29,7 @@
 //   gather4(p, k)      p[k], k an integer of each item     scatter4(p, k, v)
 //   column(i, n, k)    the items, k columns further in a column-major table with n rows
 //
-// The last call of a range may have fewer than 8 items. Lanes beyond them repeat the last item:
+// The last call of a range may have fewer items. Lanes beyond them repeat the last item:
 // they compute the same bits and store them to the same place again.
 //
 // Buffers hold float, int or float4 (float3 takes 16 bytes in OpenCL, so it never lies in memory).

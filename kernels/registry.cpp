@@ -21,6 +21,8 @@ bool can_run(Target target) {
     return target < Target::kPackedAvx2;
 }
 
+int lanes_of(Target target) { return target == Target::kPackedAvx512 ? 16 : 8; }
+
 struct Registry {
     std::map<std::string, KernelInfo> kernels;
     std::vector<SourceFile> sources;  ///< ordered by path, the language's included
@@ -57,7 +59,6 @@ int common_tail(std::string_view a, std::string_view b) {
 bool add_kernel(const std::string& name, KernelInfo info) {
     KernelInfo& known = registry().kernels[name];
     info.scalar = known.scalar;
-    info.packed = known.packed;
     info.packed_forms = known.packed_forms;
     if (info.space.empty()) info.file = from_project_root(info.file);
     known = std::move(info);
@@ -72,8 +73,18 @@ bool add_range_function(Target target, const std::string& name, RangeFunction fu
     }
     if (!can_run(target)) return true;
     info.packed_forms[target] = function;
-    info.packed = info.packed_forms.rbegin()->second;
     return true;
+}
+
+int widest_pack() { return can_run(Target::kPackedAvx512) ? 16 : 8; }
+
+RangeFunction KernelInfo::form(int lanes) const {
+    if (lanes == 1) return scalar;
+    RangeFunction best = nullptr;
+    for (const auto& [target, function] : packed_forms) {
+        if (lanes_of(target) <= lanes) best = function;
+    }
+    return best;
 }
 
 const KernelInfo& kernel_info(const std::string& name) {

@@ -47,9 +47,9 @@ using kernel_space = KernelSpace<"">;  ///< of Weft's own kernels
 /// Runs one kernel over items [begin, end). `arguments` points to one value per parameter.
 using RangeFunction = void (*)(int begin, int end, const void* const* arguments);
 
-/// What kernels are compiled for. kPacked is built for the baseline of the architecture; for
-/// x86-64, kPackedAvx2 and kPackedAvx512, whose 8 lanes have 32 registers and masks of their own
-/// (F, VL, DQ and BW, as all processors since Skylake's servers have them together).
+/// What kernels are compiled for. kPacked has 8 lanes and is built for the baseline of the
+/// architecture; for x86-64 there are kPackedAvx2, of 8 lanes, too, and kPackedAvx512, of 16 (F,
+/// VL, DQ and BW, as all processors since Skylake's servers have them together).
 enum class Target { kScalar, kPacked, kPackedAvx2, kPackedAvx512 };
 
 /// All that is known of one kernel.
@@ -60,10 +60,15 @@ struct KernelInfo {
     std::vector<Parameter> parameters;
     std::string_view parameter_text;  ///< as they are written
     RangeFunction scalar = nullptr;   ///< one item at a time
-    RangeFunction packed = nullptr;   ///< 8 lanes, on the best instructions that this processor has
-    /// All forms of 8 lanes that this processor can run.
+    /// Those with lanes that this processor can run.
     std::map<Target, RangeFunction> packed_forms = {};
+
+    /// The best for packs of so many lanes at the most; null where there is none.
+    RangeFunction form(int lanes) const;
 };
+
+/// Lanes of the widest packs that this processor has instructions for: 8 or 16.
+int widest_pack();
 
 /// The kernel of that name, with its namespace: "heat::diffuse". Every kernel is registered before
 /// main() begins. Throws std::logic_error where nobody has compiled it.

@@ -293,7 +293,7 @@ private:
             cores.assign(free_cores_.begin(), free_cores_.begin() + threads);
             free_cores_.erase(free_cores_.begin(), free_cores_.begin() + threads);
         }
-        return make_cpu_device(threads, cores, options_.cpu_lanes == 1 ? 1 : 8, number_);
+        return make_cpu_device(threads, cores, options_.cpu_lanes, number_);
     }
 
     std::unique_ptr<Device> next_opencl(int index) {

@@ -14,7 +14,8 @@ struct DeviceOptions {
     bool strict_math = true;
     /// Instead of what the device says of itself; for tests and odd drivers.
     std::optional<MemoryModel> memory;
-    /// Lanes per kernel call on OpenCL devices, and on the CPU (1 or 8); 0 = what suits the device.
+    /// Items per call of a kernel on OpenCL devices (1 or 8), and on the CPU (1, 8 or 16: at the
+    /// most, as the processor has them); 0 = what suits the device.
     int opencl_lanes = 0;
     int cpu_lanes = 0;
     /// Launch per colour (as on GPUs) instead of per strip on OpenCL devices.

@@ -27,7 +27,7 @@ std::vector<std::shared_ptr<const bool>> detail::lives_of(const Segments& segmen
 
 void check_variant(const Launch& launch, int lanes) {
     const kernels::KernelInfo& kernel = *launch.kernel;
-    if ((lanes == 1 ? kernel.scalar : kernel.packed) != nullptr) return;
+    if (kernel.form(lanes) != nullptr) return;
     throw Misuse("kernel '" + std::string(kernel.space) + std::string(kernel.name) + "' has no " +
                  (lanes == 1 ? "scalar" : "packed") +
                  " variant: give its header to weft_add_kernels()");

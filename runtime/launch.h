@@ -70,7 +70,7 @@ struct Launch {
     std::vector<std::shared_ptr<const bool>> alive = {};
 };
 
-/// Throws Misuse where the CPU has no form of the kernel with so many lanes (1 or 8).
+/// Throws Misuse where the CPU has no form of the kernel with so many lanes.
 void check_variant(const Launch& launch, int lanes);
 
 /// Launches that run one after the other on each strip: what a task does. Tasks of one kind share

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "kernels/row_stride.h"
 #include "runtime/launch.h"
 
 namespace weft {
@@ -18,12 +19,12 @@ namespace weft {
 /// results never depend on the room that there was. As that costs a whole frame, the host makes
 /// room between frames, too, where rows come near their end (is_tight()).
 ///
-/// Rows lie in slices of 8 items, entry k of an item at start + kStride * k, as in
-/// kernels/descent/rows.h. The entries of a strip lie together, so that tasks can say by strips
-/// what they read and write, whatever the room is.
+/// Rows lie in slices, entry k of an item at start + kStride * k (kernels/row_stride.h). The
+/// entries of a strip lie together, so that tasks can say by strips what they read and write,
+/// whatever the room is.
 class RowTable {
 public:
-    static constexpr int kStride = 8;
+    static constexpr int kStride = WEFT_ROW_STRIDE;
 
     /// Of a table's entries: up to so much is no matter, be it used or not [B]. (On a CPU, memory
     /// that is not touched is none.)

@@ -86,7 +86,7 @@ public:
         for (int s = 0; s < strip_count; ++s) {
             const int begin = launch_.segments.item(s);
             const int end = launch_.segments.item(s + 1);
-            if (begin < end) launch_.kernel->packed(begin, end, addresses_.data());
+            if (begin < end) form_(begin, end, addresses_.data());
         }
     }
 
@@ -97,6 +97,7 @@ private:
         void* pointer;
     };
     const Launch& launch_;
+    kernels::RangeFunction form_ = launch_.kernel->form(kernels::widest_pack());
     std::vector<Value> values_;
     std::vector<const void*> addresses_;
 };

@@ -77,7 +77,8 @@ void run_weft(benchmark::State& state, int lanes) {
                    std::to_string(simulation.frame()) + " frames");
 }
 
-void BM_Packed(benchmark::State& state) { run_weft(state, 8); }
+void BM_Packs(benchmark::State& state) { run_weft(state, 0); }
+void BM_PacksOf8(benchmark::State& state) { run_weft(state, 8); }
 void BM_Scalar(benchmark::State& state) { run_weft(state, 1); }
 
 // Repetitions in turn, so that a change of the machine's speed meets all alike.
@@ -86,7 +87,8 @@ void settings(benchmark::internal::Benchmark* benchmark) {
 }
 
 BENCHMARK(BM_PlainLoop)->Apply(settings);
-BENCHMARK(BM_Packed)->Apply(settings)->UseManualTime();
+BENCHMARK(BM_Packs)->Apply(settings)->UseManualTime();
+BENCHMARK(BM_PacksOf8)->Apply(settings)->UseManualTime();
 BENCHMARK(BM_Scalar)->Apply(settings)->UseManualTime();
 
 }  // namespace

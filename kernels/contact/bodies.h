@@ -100,16 +100,16 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
 ///                have ended badly: nothing reads them, nor `strains`
 /// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
-WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
-            WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
-            WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
-            WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes,
-            WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
-            WEFT_GLOBAL const float4* forces, WEFT_GLOBAL const float4* points,
-            WEFT_GLOBAL const float4* other_points, WEFT_GLOBAL float4* partials, float friction,
-            float creep, int is_pressed, float h2, int has_moved, int is_strain, int column_count,
-            int body_count) {
+WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
+                   WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
+                   WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
+                   WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes,
+                   WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
+                   WEFT_GLOBAL const float4* forces, WEFT_GLOBAL const float4* points,
+                   WEFT_GLOBAL const float4* other_points, WEFT_GLOBAL float4* partials,
+                   float friction, float creep, int is_pressed, float h2, int has_moved,
+                   int is_strain, int column_count, int body_count) {
     const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
     const float by_gaps = is_pressed ? 0.0f : friction;
@@ -139,7 +139,7 @@ WEFT_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
     const whole start = load_whole(rows, i);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
         const whole opposite = code >> splat_whole(1);

@@ -71,10 +71,10 @@ WEFT_KERNEL(place_points, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const i
 /// slant_low, slant_high   [2 * items] column-major, written: of the sums x + y, x + z, y + z, and
 ///             of the differences likewise [m]
 /// margin      [m]
-WEFT_KERNEL(enclose_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* hull_begin,
-            WEFT_GLOBAL const int* hulls, WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high,
-            WEFT_GLOBAL float4* slant_low, WEFT_GLOBAL float4* slant_high, float margin,
-            int item_count) {
+WEFT_NARROW_KERNEL(enclose_patches, WEFT_GLOBAL const float4* anchors,
+                   WEFT_GLOBAL const int* hull_begin, WEFT_GLOBAL const int* hulls,
+                   WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high, WEFT_GLOBAL float4* slant_low,
+                   WEFT_GLOBAL float4* slant_high, float margin, int item_count) {
     const whole begin = load_whole(hull_begin, i);
     const whole last = load_whole(hull_begin, column(i, 1, 1)) - splat_whole(1);
     const int longest = largest_whole(last - begin) + 1;
@@ -111,9 +111,9 @@ WEFT_INLINE whole first_of(whole begin, whole count) {
 /// child_begin          [items + 1] where the children of each begin
 /// child_low, child_high  boxes
 /// low, high            [items] written
-WEFT_KERNEL(enclose_boxes, WEFT_GLOBAL const int* child_begin, WEFT_GLOBAL const float4* child_low,
-            WEFT_GLOBAL const float4* child_high, WEFT_GLOBAL float4* low,
-            WEFT_GLOBAL float4* high) {
+WEFT_NARROW_KERNEL(enclose_boxes, WEFT_GLOBAL const int* child_begin,
+                   WEFT_GLOBAL const float4* child_low, WEFT_GLOBAL const float4* child_high,
+                   WEFT_GLOBAL float4* low, WEFT_GLOBAL float4* high) {
     const whole begin = load_whole(child_begin, i);
     const whole count = load_whole(child_begin, column(i, 1, 1)) - begin;
     const whole own = first_of(begin, count);
@@ -172,11 +172,11 @@ WEFT_INLINE real square_of(real3 a) { return dot3(a, a); }
 ///             1, and w = 1, or 2 where it is quiet by inertia alone; else 0
 /// drifts      [items] written: xyz: the mean of the ways [m], w: how far apart ways of patches
 ///             beside it may be [m]
-WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
-            WEFT_GLOBAL const int* foresees, WEFT_GLOBAL const int* face_begin,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts, WEFT_GLOBAL float4* drifts,
-            int face_count) {
+WEFT_NARROW_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
+                   WEFT_GLOBAL const int* foresees, WEFT_GLOBAL const int* face_begin,
+                   WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* high,
+                   WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts,
+                   WEFT_GLOBAL float4* drifts, int face_count) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole begin = load_whole(face_begin, i);
@@ -249,8 +249,8 @@ WEFT_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const f
 /// patch_tilts   as tilt_patches leaves them
 /// tilts         [items] written: where it is flat and quiet xyz = the mean, of length 1, and w = 1;
 ///               else 0
-WEFT_KERNEL(tilt_groups, WEFT_GLOBAL const int* patch_begin, WEFT_GLOBAL const float4* patch_tilts,
-            WEFT_GLOBAL float4* tilts) {
+WEFT_NARROW_KERNEL(tilt_groups, WEFT_GLOBAL const int* patch_begin,
+                   WEFT_GLOBAL const float4* patch_tilts, WEFT_GLOBAL float4* tilts) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole begin = load_whole(patch_begin, i);

@@ -56,16 +56,17 @@ WEFT_INLINE mask differs_from(whole v, whole a, whole b, whole c) {
 ///             are left as they are stay, too
 /// range       from where on what is near pushes, or would pass through, reaches aside [m]
 /// spare       by how much nearer it is looked for than slack asks for: for rounding [m]
-WEFT_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
-            WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* stale,
-            WEFT_GLOBAL const float* slacks, WEFT_GLOBAL const float4* patch_low,
-            WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_triangles,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, int item_count, int triangle_count, float halo, float range,
-            float spare, int instance) {
+WEFT_NARROW_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points,
+                   WEFT_GLOBAL const int* patches, WEFT_GLOBAL const int* near_rows,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* near_others,
+                   WEFT_GLOBAL const int* stale, WEFT_GLOBAL const float* slacks,
+                   WEFT_GLOBAL const float4* patch_low, WEFT_GLOBAL const float4* patch_high,
+                   WEFT_GLOBAL const int* patch_triangles, WEFT_GLOBAL const int* corners,
+                   WEFT_GLOBAL const int* knots, WEFT_GLOBAL const float4* low,
+                   WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, int triangle_count, float halo, float range, float spare,
+                   int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (any_of_patches(stale, first_patch, last_patch)) {
@@ -110,16 +111,16 @@ WEFT_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL con
 
 /// For each triangle the vertices: the same candidates. Parameters as above; low, high: of the
 /// items; patch_vertices: [patches + 1]
-WEFT_KERNEL(collect_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
-            WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* stale,
-            WEFT_GLOBAL const float* slacks, WEFT_GLOBAL const float4* patch_low,
-            WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_vertices,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, int item_count, float halo, float range, float spare,
-            int instance) {
+WEFT_NARROW_KERNEL(collect_vertices, WEFT_GLOBAL const float4* points,
+                   WEFT_GLOBAL const int* patches, WEFT_GLOBAL const int* near_rows,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* near_others,
+                   WEFT_GLOBAL const int* stale, WEFT_GLOBAL const float* slacks,
+                   WEFT_GLOBAL const float4* patch_low, WEFT_GLOBAL const float4* patch_high,
+                   WEFT_GLOBAL const int* patch_vertices, WEFT_GLOBAL const int* corners,
+                   WEFT_GLOBAL const int* knots, WEFT_GLOBAL const float4* low,
+                   WEFT_GLOBAL const float4* high, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, float halo, float range, float spare, int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (any_of_patches(stale, first_patch, last_patch)) {
@@ -193,15 +194,16 @@ WEFT_INLINE mask edges_are_apart(real3 a0, real3 a1, real3 b0, real3 b1, real sq
 /// For each edge the edges. Parameters as above; low, high: of the items;
 /// patch_edges: [patches + 1]
 /// ends        [2 * item_count] column-major
-WEFT_KERNEL(collect_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
-            WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* stale,
-            WEFT_GLOBAL const float* slacks, WEFT_GLOBAL const float4* patch_low,
-            WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_edges,
-            WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* knots,
-            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* others, int item_count, float range, float spare, int instance) {
+WEFT_NARROW_KERNEL(collect_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
+                   WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
+                   WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* stale,
+                   WEFT_GLOBAL const float* slacks, WEFT_GLOBAL const float4* patch_low,
+                   WEFT_GLOBAL const float4* patch_high, WEFT_GLOBAL const int* patch_edges,
+                   WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* knots,
+                   WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+                   WEFT_GLOBAL int* others, int item_count, float range, float spare,
+                   int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (any_of_patches(stale, first_patch, last_patch)) {

@@ -199,7 +199,7 @@ WEFT_INLINE contact_rows add_contact(
     const mask is_apart = both(is_on, f.distance > splat(1e-12f));
     const mask holds_back = both(is_apart, before < farthest);
     const mask plane_fits = both(holds_back, row.planes < plane_room);
-    scatter4_where(plane_fits, planes, address(plane_start + row.planes * WEFT_CONTACT_STRIDE),
+    scatter4_where(plane_fits, planes, address(plane_start + row.planes * WEFT_ROW_STRIDE),
                    with_w(away, before));
     row.planes = holds_back ? row.planes + splat_whole(1) : row.planes;
     row.least = is_apart ? smaller(row.least, before) : row.least;
@@ -211,7 +211,7 @@ WEFT_INLINE contact_rows add_contact(
         both(both(is_apart, pushes),
              both(closest<splat(WEFT_CONTACT_MARGIN * settings.range), own> zero));
     const mask fits = both(may_push, row.contacts < room);
-    const integer entry = address(start + row.contacts * WEFT_CONTACT_STRIDE);
+    const integer entry = address(start + row.contacts * WEFT_ROW_STRIDE);
     scatter_whole_where(fits, corner0, entry, c0);
     scatter_whole_where(fits, corner1, entry, c1);
     scatter_whole_where(fits, corner2, entry, c2);
@@ -262,25 +262,27 @@ WEFT_INLINE whole most_near(WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const
 /// least       [vertices] written: the least room before its planes [m]; huge where there are no
 ///             pairs, 0 where it is held and there may be some
 /// nearest     [vertices] written: the least distance of its pairs since instance 0 [m]
-WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
-            WEFT_GLOBAL const float* stiffness, WEFT_GLOBAL const int* surface,
-            WEFT_GLOBAL const int* triangle_begin, WEFT_GLOBAL const int* triangle_list,
-            WEFT_GLOBAL const int* edge_begin, WEFT_GLOBAL const int* edge_list,
-            WEFT_GLOBAL const int* triangles, WEFT_GLOBAL const int* edges,
-            WEFT_GLOBAL const int* apexes, WEFT_GLOBAL const int* patch_begin,
-            WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const int* near_counts,
-            WEFT_GLOBAL const int* vt_rows, WEFT_GLOBAL const int* vt_counts,
-            WEFT_GLOBAL const int* vt_others, WEFT_GLOBAL const int* tv_rows,
-            WEFT_GLOBAL const int* tv_counts, WEFT_GLOBAL const int* tv_others,
-            WEFT_GLOBAL const int* ee_rows, WEFT_GLOBAL const int* ee_counts,
-            WEFT_GLOBAL const int* ee_others, WEFT_GLOBAL const int* plane_rows,
-            WEFT_GLOBAL int* plane_counts, WEFT_GLOBAL int* plane_needs, WEFT_GLOBAL float4* planes,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-            WEFT_GLOBAL int* corner0, WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2,
-            WEFT_GLOBAL int* corner3, WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights,
-            WEFT_GLOBAL float4* measures, WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest,
-            int vertex_count, int triangle_count, int edge_count, float range, float slack,
-            float factor, int instance) {
+WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
+                   WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const float* stiffness,
+                   WEFT_GLOBAL const int* surface, WEFT_GLOBAL const int* triangle_begin,
+                   WEFT_GLOBAL const int* triangle_list, WEFT_GLOBAL const int* edge_begin,
+                   WEFT_GLOBAL const int* edge_list, WEFT_GLOBAL const int* triangles,
+                   WEFT_GLOBAL const int* edges, WEFT_GLOBAL const int* apexes,
+                   WEFT_GLOBAL const int* patch_begin, WEFT_GLOBAL const int* patch_list,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* vt_rows,
+                   WEFT_GLOBAL const int* vt_counts, WEFT_GLOBAL const int* vt_others,
+                   WEFT_GLOBAL const int* tv_rows, WEFT_GLOBAL const int* tv_counts,
+                   WEFT_GLOBAL const int* tv_others, WEFT_GLOBAL const int* ee_rows,
+                   WEFT_GLOBAL const int* ee_counts, WEFT_GLOBAL const int* ee_others,
+                   WEFT_GLOBAL const int* plane_rows, WEFT_GLOBAL int* plane_counts,
+                   WEFT_GLOBAL int* plane_needs, WEFT_GLOBAL float4* planes,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+                   WEFT_GLOBAL int* corner0, WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2,
+                   WEFT_GLOBAL int* corner3, WEFT_GLOBAL float4* normals,
+                   WEFT_GLOBAL float4* weights, WEFT_GLOBAL float4* measures,
+                   WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest, int vertex_count,
+                   int triangle_count, int edge_count, float range, float slack, float factor,
+                   int instance) {
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
     contact_settings settings;
@@ -321,7 +323,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
     for (int k = 0; k < own_longest; ++k) {
         const mask is_on = splat_whole(k) < own_count;
         const integer entry =
-            address(is_on ? own_start + splat_whole(WEFT_CONTACT_STRIDE * k) : own_start);
+            address(is_on ? own_start + splat_whole(WEFT_ROW_STRIDE * k) : own_start);
         const whole code = is_on ? gather_whole(vt_others, entry) : none;
         const whole t = half_of(code);
         const mask pushes = code > t + t;
@@ -352,7 +354,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
             for (int k = 0; k < longest; ++k) {
                 const mask is_on = splat_whole(k) < count;
                 const integer entry =
-                    address(is_on ? t_start + splat_whole(WEFT_CONTACT_STRIDE * k) : t_start);
+                    address(is_on ? t_start + splat_whole(WEFT_ROW_STRIDE * k) : t_start);
                 const whole code = is_on ? gather_whole(tv_others, entry) : none;
                 const whole other = half_of(code);
                 const mask pushes = code > other + other;
@@ -381,7 +383,7 @@ WEFT_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const 
             for (int k = 0; k < longest; ++k) {
                 const mask is_on = splat_whole(k) < count;
                 const integer entry =
-                    address(is_on ? e_start + splat_whole(WEFT_CONTACT_STRIDE * k) : e_start);
+                    address(is_on ? e_start + splat_whole(WEFT_ROW_STRIDE * k) : e_start);
                 const whole code = is_on ? gather_whole(ee_others, entry) : none;
                 const whole other = half_of(code);
                 const mask pushes = code > other + other;

@@ -28,10 +28,11 @@ WEFT_INLINE integer body_in_group(WEFT_GLOBAL const int* members, whole first, m
 /// counts        [substeps * bodies] how many there are; 0 for all but the first one of a group
 /// members       [substeps * bodies] groups side by side
 /// group_motions [3 * bodies] written, column-major: of the groups that begin there; about xyz [m]
-WEFT_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests, WEFT_GLOBAL const float4* moments_of,
-            WEFT_GLOBAL const float4* motions, WEFT_GLOBAL const int* firsts,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* members,
-            WEFT_GLOBAL float4* group_motions, int body_count, int substep) {
+WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
+                   WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
+                   WEFT_GLOBAL const int* firsts, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* members, WEFT_GLOBAL float4* group_motions,
+                   int body_count, int substep) {
     const real zero = splat(0.0f);
     const item now = column(i, body_count, substep);
     const whole first = load_whole(firsts, now);

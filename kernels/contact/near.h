@@ -97,21 +97,22 @@ WEFT_INLINE whole may_fold_onto(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL con
 /// held          [items] 1: it cannot move
 /// margin        by which they may be apart, so that it is known for a while what is near [m]
 /// rows, counts, needs, others   a table, as in kernels/neighbours.h
-WEFT_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
-            WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
-            WEFT_GLOBAL const float4* block_low, WEFT_GLOBAL const float4* block_high,
-            WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
-            WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
-            WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
-            WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
-            WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
-            WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* group_of,
-            WEFT_GLOBAL const float4* group_tilts, WEFT_GLOBAL const int* group_beside_begin,
-            WEFT_GLOBAL const int* group_besides, WEFT_GLOBAL const int* group_vias,
-            WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
-            int item_count, int root_count, float margin, int touch_self, int instance) {
+WEFT_NARROW_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
+                   WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
+                   WEFT_GLOBAL const float4* block_low, WEFT_GLOBAL const float4* block_high,
+                   WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
+                   WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
+                   WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+                   WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
+                   WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
+                   WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
+                   WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* group_of,
+                   WEFT_GLOBAL const float4* group_tilts, WEFT_GLOBAL const int* group_beside_begin,
+                   WEFT_GLOBAL const int* group_besides, WEFT_GLOBAL const int* group_vias,
+                   WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
+                   WEFT_GLOBAL int* others, int item_count, int root_count, float margin,
+                   int touch_self, int instance) {
     const whole self = item_numbers(i);
     const real_bounds bounds = widened_bounds(
         gather_bounds(low, high, slant_low, slant_high, self, item_count), splat(margin));

@@ -47,9 +47,10 @@ WEFT_INLINE real nearing(real_strides a, real_strides b) {
 /// hull_begin, hulls   as in enclose_patches
 /// counts      [items] how many patches each has near to it, as far as it knows
 /// low, high   [items] written
-WEFT_KERNEL(enclose_strides, WEFT_GLOBAL const float4* strides, WEFT_GLOBAL const int* hull_begin,
-            WEFT_GLOBAL const int* hulls, WEFT_GLOBAL const int* counts, WEFT_GLOBAL float4* low,
-            WEFT_GLOBAL float4* high) {
+WEFT_NARROW_KERNEL(enclose_strides, WEFT_GLOBAL const float4* strides,
+                   WEFT_GLOBAL const int* hull_begin, WEFT_GLOBAL const int* hulls,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL float4* low,
+                   WEFT_GLOBAL float4* high) {
     const real far = splat(WEFT_UNKNOWN_STRIDE);
     const whole none = splat_whole(0);
     const mask counts_here = load_whole(counts, i) > none;
@@ -150,17 +151,18 @@ WEFT_INLINE real keep_what_is_near(real_strides own, WEFT_GLOBAL const float4* s
 /// substeps    of the present speed that slack is for
 /// worthwhile  if the most slack would not last for so many of them, there is none: collecting with
 ///             slack takes longer
-WEFT_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
-            WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
-            WEFT_GLOBAL const float4* stride_low, WEFT_GLOBAL const float4* stride_high,
-            WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
-            WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
-            WEFT_GLOBAL float* spent, WEFT_GLOBAL float* slacks, WEFT_GLOBAL int* stamps,
-            WEFT_GLOBAL int* stale, WEFT_GLOBAL const int* epoch, WEFT_GLOBAL const int* age0,
-            WEFT_GLOBAL const int* age1, WEFT_GLOBAL const int* age2, WEFT_GLOBAL const int* age3,
-            int item_count, float margin, float spare, float least, float most, float substeps,
-            float worthwhile, int instance) {
+WEFT_NARROW_KERNEL(check_candidates, WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
+                   WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
+                   WEFT_GLOBAL const float4* stride_low, WEFT_GLOBAL const float4* stride_high,
+                   WEFT_GLOBAL const int* near_rows, WEFT_GLOBAL const int* near_counts,
+                   WEFT_GLOBAL const int* near_others, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   WEFT_GLOBAL float* spent, WEFT_GLOBAL float* slacks, WEFT_GLOBAL int* stamps,
+                   WEFT_GLOBAL int* stale, WEFT_GLOBAL const int* epoch,
+                   WEFT_GLOBAL const int* age0, WEFT_GLOBAL const int* age1,
+                   WEFT_GLOBAL const int* age2, WEFT_GLOBAL const int* age3, int item_count,
+                   float margin, float spare, float least, float most, float substeps,
+                   float worthwhile, int instance) {
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
     const whole now = splat_whole(epoch[0] + age0[0] + age1[0] + age2[0] + age3[0]);

@@ -8,9 +8,6 @@
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
-/// Between the entries of one row: rows lie in slices of 8 items, as in kernels/descent/rows.h.
-#define WEFT_ROW_STRIDE 8
-
 WEFT_KERNELS_BEGIN
 
 typedef struct {

@@ -133,15 +133,15 @@ WEFT_INLINE open_rows with_vertex_and_triangle(
 /// corners     [3 * triangle_count] column-major
 /// beyond, owned, ring_begin, ring   as in regions.h
 /// rows, counts, needs, others       a table, as in kernels/neighbours.h
-WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
-            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
-            WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
-            WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
-            WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, int triangle_count,
-            float halo, float least, int instance) {
+WEFT_NARROW_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+                   WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
+                   WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
+                   WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
+                   WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
+                   WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, int triangle_count, float halo, float least, int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
@@ -169,15 +169,15 @@ WEFT_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const 
 }
 
 /// For each triangle the vertices: the same pairs. Parameters as above
-WEFT_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
-            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
-            WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
-            WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
-            WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
-            WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
-            float least, int instance) {
+WEFT_NARROW_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+                   WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
+                   WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
+                   WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* beyond,
+                   WEFT_GLOBAL const int* owned, WEFT_GLOBAL const int* ring_begin,
+                   WEFT_GLOBAL const int* ring, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, float halo, float least, int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
@@ -218,13 +218,13 @@ WEFT_INLINE whole edges_push(closest_points c) {
 
 /// For each edge the edges. Parameters as above;
 /// ends        [2 * item_count] column-major
-WEFT_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
-            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
-            WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
-            WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
-            WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts,
-            WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others, int item_count, float halo,
-            float least, int instance) {
+WEFT_NARROW_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL const int* patches,
+                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* kept_counts,
+                   WEFT_GLOBAL const int* stale, WEFT_GLOBAL const int* candidate_rows,
+                   WEFT_GLOBAL const int* candidate_counts, WEFT_GLOBAL const int* candidates,
+                   WEFT_GLOBAL const int* ends, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, float halo, float least, int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {

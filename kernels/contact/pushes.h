@@ -59,20 +59,22 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// points, other_points  [entries] written: where this side is touched, and the other one [m]; w of
 ///              points: how hard multipliers say that they press each other [N]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
-WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
-            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
-            WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* bodies,
-            WEFT_GLOBAL const int* leaders, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const float4* earlier_slips, WEFT_GLOBAL const float* multipliers,
-            WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
-            WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
-            WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
-            WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float4* standing, int column_count,
-            int body_count, float friction, int has_multipliers, float inverse_h2, int instance) {
+WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const int* members,
+                   WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* column_rows,
+                   WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* leaders,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* earlier_slips,
+                   WEFT_GLOBAL const float* multipliers, WEFT_GLOBAL const int* push_rows,
+                   WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs,
+                   WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
+                   WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
+                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float4* standing, int column_count,
+                   int body_count, float friction, int has_multipliers, float inverse_h2,
+                   int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
@@ -99,8 +101,7 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
         const int longest = largest_whole(count);
         for (int n = 0; n < longest; ++n) {
             const mask on = splat_whole(n) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * n) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * n) : start);
             const whole c0 = gather_whole(corner0, entry);
             const whole c1 = gather_whole(corner1, entry);
             const whole c2 = gather_whole(corner2, entry);
@@ -130,7 +131,7 @@ WEFT_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL con
                 const real press =
                     has_multipliers ? gather(multipliers, entry) * splat(inverse_h2) : zero;
                 const mask fits = both(counts_here, found < room);
-                const integer place = address(push_start + found * WEFT_CONTACT_STRIDE);
+                const integer place = address(push_start + found * WEFT_ROW_STRIDE);
                 scatter_whole_where(fits, codes, place, opposite + opposite + outside);
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));

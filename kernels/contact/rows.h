@@ -128,15 +128,15 @@ WEFT_INLINE derivatives add_push(derivatives s, contact_entry c, mask on, real3 
 ///             friction
 /// sums        [9 * items] see descent/rows.h
 /// friction, creep  as in add_push
-WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
-            WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* vertices,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
-            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
-            WEFT_GLOBAL float* sums, int item_count, int vertex_count, int iteration,
-            float friction, float creep) {
+WEFT_NARROW_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* vertices,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
+                   WEFT_GLOBAL float* sums, int item_count, int vertex_count, int iteration,
+                   float friction, float creep) {
     const integer vertex = load_index(vertices, i);
     const whole count = gather_whole(counts, vertex);
     const int longest = largest_whole(count);
@@ -147,8 +147,7 @@ WEFT_KERNEL(gather_contacts, WEFT_GLOBAL const float4* positions,
         derivatives s = load_derivatives(sums, i, item_count);
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3, normals,
                                            weights, measures, entry);
             if (!any_item(both(on, is_pushed(c)))) continue;

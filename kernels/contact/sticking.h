@@ -42,17 +42,17 @@ WEFT_INLINE real3 weighted_slip(WEFT_GLOBAL const float4* kept, int vertex_count
 /// With which slips the contacts of a substep begin. Over all vertices, behind fill_contacts.
 /// slips  [entries] xyz, written: of this side along the other one [m]
 /// others as in keep_slips
-WEFT_KERNEL(recall_slips, WEFT_GLOBAL const float4* kept, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL float4* slips, int vertex_count) {
+WEFT_NARROW_KERNEL(recall_slips, WEFT_GLOBAL const float4* kept, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL float4* slips, int vertex_count) {
     const whole start = load_whole(rows, i);
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         const real3 n = xyz(gather4(normals, entry));
         const real4 w = gather4(weights, entry);
         const integer c0 = address(gather_whole(corner0, entry));
@@ -92,13 +92,13 @@ WEFT_INLINE real4 mean_slip(slip_sum s) {
 ///            slip that is kept on its side, and on the other one [m]
 /// creep      e [m] > 0
 /// others as in gather_contacts (rows.h)
-WEFT_KERNEL(keep_slips, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const float4* slips, WEFT_GLOBAL float4* kept, int vertex_count,
-            float creep) {
+WEFT_NARROW_KERNEL(keep_slips, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+                   WEFT_GLOBAL const float4* slips, WEFT_GLOBAL float4* kept, int vertex_count,
+                   float creep) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const real3 nothing = make3(zero, zero, zero);
@@ -110,7 +110,7 @@ WEFT_KERNEL(keep_slips, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const i
     slip_sum beyond = there;
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
                                        weights, measures, entry);
         c = with_earlier_slip(c, slips, entry);

@@ -40,7 +40,7 @@ WEFT_INLINE real energy_of_contacts(WEFT_GLOBAL const float4* points,
     real sum = splat(0.0f);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         const contact_entry c = load_contact(points, corner0, corner1, corner2, corner3, normals,
                                              weights, measures, entry);
         const whole owner = owner_of(positions, gather_whole(corner0, entry),
@@ -55,12 +55,12 @@ WEFT_INLINE real energy_of_contacts(WEFT_GLOBAL const float4* points,
 /// The contacts' terms of E(x); see descent/energy_terms.h. Over all vertices.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
 /// others as in gather_contacts
-WEFT_KERNEL(contact_terms, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const int* slots, WEFT_GLOBAL float* terms) {
+WEFT_NARROW_KERNEL(contact_terms, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+                   WEFT_GLOBAL const int* slots, WEFT_GLOBAL float* terms) {
     store_term(terms, slots, i,
                energy_of_contacts(positions, positions, rows, counts, corner0, corner1, corner2,
                                   corner3, normals, weights, measures, i));
@@ -71,13 +71,13 @@ WEFT_KERNEL(contact_terms, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL cons
 /// previous   [vertices] xyz: where they were at the substep's begin [m]
 /// energies   [2 * vertices] written: at the begin of instance 0, and at the positions [J]
 /// others as in gather_contacts
-WEFT_KERNEL(measure_contacts, WEFT_GLOBAL const float4* positions,
-            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL float* energies, int vertex_count, int instance) {
+WEFT_NARROW_KERNEL(measure_contacts, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+                   WEFT_GLOBAL float* energies, int vertex_count, int instance) {
     if (instance == 0) {
         store(energies, i,
               energy_of_contacts(previous, positions, rows, counts, corner0, corner1, corner2,

@@ -28,7 +28,7 @@ WEFT_INLINE turned_way turn_before(WEFT_GLOBAL const float4* planes, whole start
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         const real4 plane = gather4(planes, entry);
         const real room = on ? room_before(plane.w, splat(soft)) : splat(1e30f);
         w.through = smaller(w.through, dot3(w.way, xyz(plane)) + room);
@@ -46,7 +46,7 @@ WEFT_INLINE kept_way share_of_way(WEFT_GLOBAL const float4* planes, whole start,
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         const real4 plane = gather4(planes, entry);
         const real room = room_before(plane.w, splat(hard));
         const real part = share_before(foothold, way, xyz(plane), room);
@@ -88,8 +88,7 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
     for (int round = 0; round < WEFT_KEEPING_ROUNDS; ++round) {
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             const real4 plane = gather4(planes, entry);
             way = keep_before(way, xyz(plane), on ? plane.w : splat(1e30f));
         }
@@ -108,10 +107,10 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
 ///            way, 2 where it found no place that all its planes and its ball allow, else 0
 /// soft       what stays between plane and vertex where only that has to yield [m]
 /// hard       what stays at least [m]
-WEFT_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* anchors,
-            WEFT_GLOBAL const float* least, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const float4* planes, WEFT_GLOBAL int* cut,
-            float soft, float hard) {
+WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
+                   WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float* least,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const float4* planes, WEFT_GLOBAL int* cut, float soft, float hard) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const real4 x = load4(positions, i);

@@ -24,9 +24,6 @@
 /// The room before its planes of a vertex that has no pairs [m].
 #define WEFT_NO_PLANE 1e30f
 
-/// Between the entries of one row: rows lie in slices of 8 items (runtime/row_table.h).
-#define WEFT_CONTACT_STRIDE 8
-
 WEFT_KERNELS_BEGIN
 
 /// How far a vertex may go towards a plane: some slack stays, as far as there was any.

@@ -5,9 +5,9 @@
 // gradients and Hessian blocks.
 //
 // Items are vertices in an order of the solver's own. The elements of an item are its row. Rows lie
-// in slices of 8 items (SELL-8, Kreutzer et al. 2014): entry k of an item stands at start + stride
-// k, and the 8 items of a pack are neighbours in memory. All rows of a slice have the same length;
-// short ones end with entries that contribute nothing.
+// in slices of 16 items (SELL-C, Kreutzer et al. 2014): entry k of an item stands at start + stride
+// k, and the items of a pack are neighbours in memory. All rows of a pack have the length of its
+// first; short ones end with entries that contribute nothing.
 
 #include "kernels/matrix.h"
 #include "kernels/platform.h"
@@ -15,7 +15,7 @@
 
 WEFT_KERNELS_BEGIN
 
-/// slices [2 * items] start of the item's row, length of the rows of its slice
+/// slices [2 * items] start of the item's row, length of the rows of a pack that begins with it
 WEFT_INLINE int row_length(WEFT_GLOBAL const int* slices, item i) {
     return slices[2 * i.first + 1];
 }

@@ -16,19 +16,20 @@ WEFT_KERNELS_BEGIN
 /// curvatures  [entries] written: c [N/m], 0 beyond the range
 /// grips       [entries] written: g [N/m]
 /// others as in gather_contacts (contact/rows.h)
-WEFT_KERNEL(couple_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const float4* slips, WEFT_GLOBAL float* curvatures,
-            WEFT_GLOBAL float* grips, float friction, float creep) {
+WEFT_NARROW_KERNEL(couple_contacts, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
+                   WEFT_GLOBAL float* curvatures, WEFT_GLOBAL float* grips, float friction,
+                   float creep) {
     const whole count = load_whole(counts, i);
     const whole start = load_whole(rows, i);
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
-        const integer entry = address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         contact_entry c = load_contact(positions, corner0, corner1, corner2, corner3, normals,
                                        weights, measures, entry);
         if (friction > 0.0f) c = with_earlier_slip(c, slips, entry);
@@ -43,13 +44,13 @@ WEFT_KERNEL(couple_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL co
 /// directions  [vertices] xyz: p
 /// products    [3 * vertices] column-major, see blocks.h
 /// others as in couple_contacts
-WEFT_KERNEL(multiply_contacts, WEFT_GLOBAL const float4* directions, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-            WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-            WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-            WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-            WEFT_GLOBAL const float* curvatures, WEFT_GLOBAL const float* grips,
-            WEFT_GLOBAL float* products, int vertex_count) {
+WEFT_NARROW_KERNEL(multiply_contacts, WEFT_GLOBAL const float4* directions,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float* curvatures,
+                   WEFT_GLOBAL const float* grips, WEFT_GLOBAL float* products, int vertex_count) {
     const whole count = load_whole(counts, i);
     const whole start = load_whole(rows, i);
     const int longest = largest_whole(count);
@@ -58,8 +59,7 @@ WEFT_KERNEL(multiply_contacts, WEFT_GLOBAL const float4* directions, WEFT_GLOBAL
         real3 sum = load_product(products, i, vertex_count, 0);
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             const real curvature = gather(curvatures, entry);
             const real grip = gather(grips, entry);
             // Most are not pushed; see is_pushed().

@@ -10,21 +10,12 @@ using whole = integer;
 
 using mask = integer;  ///< -1 or 0, as comparisons of packs give it
 
-typedef long long quarters __attribute__((vector_size(32)));
-
-WEFT_INLINE bool any_item(mask m) {
-    const quarters q = reinterpret_cast<quarters>(m);
-#ifdef __AVX__
-    return __builtin_ia32_ptestz256(q, q) == 0;
-#else
-    return (q[0] | q[1] | q[2] | q[3]) != 0;
-#endif
-}
-
 /// Bit by bit the lanes for which m holds.
 WEFT_INLINE unsigned lane_bits(mask m) {
-#ifdef __AVX__
-    return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<real>(m)));
+#if defined(__AVX512DQ__)
+    return _mm512_movepi32_mask(reinterpret_cast<__m512i>(m));
+#elif defined(__AVX__)
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(m)));
 #else
     unsigned bits = 0;
     for (int lane = 0; lane < kLanes; ++lane) bits |= m[lane] != 0 ? 1u << lane : 0u;
@@ -32,13 +23,21 @@ WEFT_INLINE unsigned lane_bits(mask m) {
 #endif
 }
 
+WEFT_INLINE bool any_item(mask m) { return lane_bits(m) != 0; }
+
+template <class Vector, class Best, int... Lane>
+WEFT_INLINE auto best_of_lanes(Vector v, Best best, std::integer_sequence<int, Lane...>) {
+    if constexpr (kLanes > 8) v = best(v, __builtin_shufflevector(v, v, (Lane ^ 8)...));
+    v = best(v, __builtin_shufflevector(v, v, (Lane ^ 4)...));
+    v = best(v, __builtin_shufflevector(v, v, (Lane ^ 2)...));
+    v = best(v, __builtin_shufflevector(v, v, (Lane ^ 1)...));
+    return v[0];
+}
+
 /// What `best(a, b)` leaves of all lanes.
 template <class Vector, class Best>
 WEFT_INLINE auto best_of_lanes(Vector v, Best best) {
-    v = best(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-    v = best(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
-    v = best(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
-    return v[0];
+    return best_of_lanes(v, best, std::make_integer_sequence<int, kLanes>{});
 }
 
 WEFT_INLINE int largest_whole(whole w) {
@@ -87,13 +86,7 @@ WEFT_INLINE whole gather_whole(const int* p, integer k) {
     return v;
 }
 
-WEFT_INLINE void store_whole(int* p, item i, whole v) {
-    if (i.count == kLanes) {
-        std::memcpy(p + i.first, &v, sizeof v);
-    } else {
-        for (int lane = 0; lane < i.count; ++lane) p[i.first + lane] = v[lane];
-    }
-}
+WEFT_INLINE void store_whole(int* p, item i, whole v) { store_lanes(p, i, v); }
 
 #else
 

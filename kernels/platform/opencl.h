@@ -19,6 +19,7 @@
 #define WEFT_KERNELS_BEGIN
 #define WEFT_KERNELS_END
 #define WEFT_KERNEL(name, ...) WEFT_INLINE void name(item i, __VA_ARGS__)
+#define WEFT_NARROW_KERNEL WEFT_KERNEL
 
 typedef struct {
     int first;

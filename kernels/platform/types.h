@@ -31,16 +31,21 @@ struct alignas(16) float4 {
 
 /// Defines a kernel: WEFT_KERNEL(name, parameters...) { body for item i }.
 /// `weft::kernels::name` is then a constant whose type carries the signature, for typed launches.
-#define WEFT_KERNEL(name, ...)                                     \
+#define WEFT_KERNEL(name, ...) \
+    WEFT_DEFINE_KERNEL(WEFT_REGISTRATION, name, #__VA_ARGS__, __VA_ARGS__)
+#define WEFT_NARROW_KERNEL(name, ...) \
+    WEFT_DEFINE_KERNEL(WEFT_NARROW_REGISTRATION, name, #__VA_ARGS__, __VA_ARGS__)
+
+/// text: of the parameters as they are written, which is lost where a macro hands them on.
+#define WEFT_DEFINE_KERNEL(registration, name, text, ...)          \
     struct name##_kernel {                                         \
         static constexpr const char* kName = #name;                \
         static constexpr const char* kSpace = kernel_space::kName; \
         static constexpr const char* kFile = __FILE__;             \
-        static constexpr const char* kParameters = #__VA_ARGS__;   \
+        static constexpr const char* kParameters = text;           \
         static constexpr int kLaneCount = kLanes;                  \
         using Item = item;                                         \
         static inline void run(item i, __VA_ARGS__);               \
     };                                                             \
     inline constexpr name##_kernel name{};                         \
-    WEFT_REGISTRATION(name)                                        \
-    WEFT_INLINE void name##_kernel::run(item i, __VA_ARGS__)
+    registration(name) WEFT_INLINE void name##_kernel::run(item i, __VA_ARGS__)

@@ -27,9 +27,9 @@ WEFT_KERNELS_BEGIN
 /// snapshots  [2 * vertices] written: of odd iterations in the second half; w = 1/mass of the part
 ///            of a contact [1/kg]
 /// ahead      by how many iterations behind this one is that which is to see it
-WEFT_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const float* least, WEFT_GLOBAL float4* snapshots, int vertex_count,
-            int iteration, int ahead) {
+WEFT_NARROW_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const float* least, WEFT_GLOBAL float4* snapshots, int vertex_count,
+                   int iteration, int ahead) {
     const mask has_pairs = load(least, i) < splat(WEFT_NO_PLANE);
     if (!any_item(has_pairs)) return;
     const real4 x = load4(positions, i);
@@ -71,13 +71,14 @@ WEFT_INLINE real change_of_multiplier(contact_entry c, real multiplier, real lig
 /// multipliers  [entries] l [N s^2]; taken as 0 in iteration 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// others as in gather_contacts (contact/rows.h)
-WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
-            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* multipliers, int vertex_count,
-            float inverse_h2, int iteration) {
+WEFT_NARROW_KERNEL(project_contacts, WEFT_GLOBAL float4* positions,
+                   WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
+                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
+                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
+                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
+                   WEFT_GLOBAL float* multipliers, int vertex_count, float inverse_h2,
+                   int iteration) {
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     if (longest > 0) {
@@ -88,8 +89,7 @@ WEFT_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const f
         real3 push = make3(zero, zero, zero);
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
             const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
@@ -135,14 +135,14 @@ WEFT_INLINE real largest_part(real3 v) {
 /// friction     Coulomb coefficient mu
 /// creep        e [m] > 0
 /// others as in project_contacts
-WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
-            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-            WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
-            WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
-            WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
-            WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
-            WEFT_GLOBAL const float* multipliers, WEFT_GLOBAL float4* rubs, int vertex_count,
-            int iteration, float friction, float creep) {
+WEFT_NARROW_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* snapshots,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL const float4* slips,
+                   WEFT_GLOBAL const float* multipliers, WEFT_GLOBAL float4* rubs, int vertex_count,
+                   int iteration, float friction, float creep) {
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     if (longest > 0) {
@@ -154,8 +154,7 @@ WEFT_KERNEL(rub_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float
         real3 push = none;
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
-            const integer entry =
-                address(on ? start + splat_whole(WEFT_CONTACT_STRIDE * k) : start);
+            const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             const real3 rub = iteration == 0 ? none : xyz(gather4(rubs, entry));
             const real cap = splat(friction) * gather(multipliers, entry);
             // Nor does what neither is pressed nor has rubbed.

@@ -20,9 +20,13 @@ namespace weft {
 
 namespace {
 
+/// A pack that is half empty takes longer than a full one of half as many lanes.
+constexpr int kNarrow = 8;
+
 /// A launch with its arguments as the range function wants them.
 struct BoundLaunch {
     kernels::RangeFunction function;
+    kernels::RangeFunction narrow;  ///< for ranges of up to kNarrow items
     Segments segments;
     std::vector<Argument> values;
     std::vector<void*> pointers;         ///< storage of pointer parameters
@@ -30,7 +34,8 @@ struct BoundLaunch {
     std::vector<std::size_t> filled_in;  ///< parameters that are known when a task runs
 
     BoundLaunch(const Launch& launch, int lanes)
-        : function(lanes == 1 ? launch.kernel->scalar : launch.kernel->packed),
+        : function(launch.kernel->form(lanes)),
+          narrow(launch.kernel->form(std::min(lanes, kNarrow))),
           segments(launch.segments),
           values(launch.arguments),
           pointers(values.size(), nullptr) {
@@ -73,7 +78,7 @@ struct BoundLaunch {
         const int begin = segments.item(strip, colour);
         const int end = segments.item(strip, colour + 1);
         WEFT_ASSERT(0 <= begin && begin <= end);
-        if (begin < end) function(begin, end, arguments.data());
+        if (begin < end) (end - begin > kNarrow ? function : narrow)(begin, end, arguments.data());
     }
 };
 
@@ -303,7 +308,7 @@ public:
         info_.name = "TBB, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         info_.kind = "tbb";
         info_.units = threads;
-        info_.lanes = lanes;
+        info_.lanes = lanes == 0 ? kernels::widest_pack() : std::min(lanes, kernels::widest_pack());
         info_.cores = std::move(cores);
         info_.team = team;
     }

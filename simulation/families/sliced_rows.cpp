@@ -14,13 +14,12 @@ SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_beg
         for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += stride) {
             const int end = std::min(first + stride, segment_begin[s + 1]);
             int longest = 0;
-            for (int i = first; i < end; ++i) {
-                WEFT_ASSERT(lengths[static_cast<std::size_t>(i)] >= 0);
-                longest = std::max(longest, lengths[static_cast<std::size_t>(i)]);
-            }
-            for (int i = first; i < end; ++i) {
-                slices_[2 * static_cast<std::size_t>(i)] = entry_count_ + i - first;
-                slices_[2 * static_cast<std::size_t>(i) + 1] = longest;
+            for (int i = end - 1; i >= first; --i) {
+                const auto at = static_cast<std::size_t>(i);
+                WEFT_ASSERT(lengths[at] >= 0);
+                longest = std::max(longest, lengths[at]);
+                slices_[2 * at] = entry_count_ + i - first;
+                slices_[2 * at + 1] = longest;
             }
             entry_count_ += stride * longest;
         }

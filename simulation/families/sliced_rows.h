@@ -8,14 +8,16 @@
 
 namespace weft {
 
-/// Where the rows of items lie: slices of `stride` items, 8 as kernels/descent/rows.h says. A slice
-/// never crosses a segment's border, so every pack of lanes begins with a slice.
+/// Where the rows of items lie: slices of `stride` items (kernels/descent/rows.h), of as many as
+/// the widest pack has. A slice never crosses a segment's border, so every pack of lanes lies in
+/// one.
 class SlicedRows {
 public:
-    static constexpr int kStride = 8;
+    static constexpr int kStride = 16;
 
     /// segment_begin: of the items, first and last included; lengths: of the items' rows. Where no
-    /// segment has 8 items, a smaller stride leaves less room empty: as many as it has, or more.
+    /// segment has as many items, a smaller stride leaves less room empty: as many as it has, or
+    /// more.
     SlicedRows(const std::string& name, std::span<const int> segment_begin,
                std::span<const int> lengths, int stride = kStride);
 
@@ -23,7 +25,8 @@ public:
     int stride() const { return stride_; }
     int item_count() const { return static_cast<int>(slices_.count() / 2); }
     int entry_count() const { return entry_count_; }
-    /// Of the item's slice: its own length, or more.
+    /// Its own or more: the longest of its slice from the item on, so that it will do for a pack
+    /// that begins with it.
     int length(int item) const { return slices_[2 * static_cast<std::size_t>(item) + 1]; }
     std::size_t entry(int item, int k) const {
         return static_cast<std::size_t>(slices_[2 * static_cast<std::size_t>(item)] + stride_ * k);

@@ -1,6 +1,7 @@
 #include "simulation/topology/stencil_layout.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "scheduler/assert.h"
@@ -41,6 +42,16 @@ public:
     int corner(int leader, std::size_t number) const {
         if (family(leader) == candidates_.size()) return leader;
         return candidates_[family(leader)].elements[element_[leader]][number];
+    }
+
+    /// Of each corner. Rows of elements that share a pack are about as long when stencils lie by
+    /// these.
+    std::array<std::size_t, 4> neighbours(const VertexGraph& graph, int leader, int corners) const {
+        std::array<std::size_t, 4> counts{};
+        for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
+            counts[k] = graph.neighbours(corner(leader, k)).size();
+        }
+        return counts;
     }
 
 private:
@@ -95,6 +106,9 @@ StencilLayout make_stencil_layout(std::span<const Stencils> kinds, const Strips&
             members[choice.family(leaders[i])].push_back(leaders[i]);
         }
         for (std::size_t f = 0; f < members.size(); ++f) {
+            std::ranges::stable_sort(members[f], std::greater{}, [&](int leader) {
+                return choice.neighbours(graph, leader, layout.families[f].arity);
+            });
             add_segment(members[f], choice, items.vertices, layout.families[f]);
         }
         items.segment_begin.push_back(static_cast<int>(items.vertices.size()));

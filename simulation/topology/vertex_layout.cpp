@@ -1,5 +1,8 @@
 #include "simulation/topology/vertex_layout.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "simulation/topology/vertex_groups.h"
 
 namespace weft {
@@ -9,6 +12,13 @@ VertexLayout make_vertex_layout(std::span<const Stencils> kinds, const Strips& s
     VertexLayout layout;
     layout.vertices = sort_into_segments(graph, strips, find_places(graph, strips),
                                          Groups(graph.vertex_count()), layout);
+    // Rows of elements that share a pack are about as long then.
+    const auto neighbours = [&](int v) { return graph.neighbours(v).size(); };
+    for (std::size_t s = 0; s + 1 < layout.segment_begin.size(); ++s) {
+        std::ranges::stable_sort(layout.vertices.begin() + layout.segment_begin[s],
+                                 layout.vertices.begin() + layout.segment_begin[s + 1],
+                                 std::greater{}, neighbours);
+    }
     return layout;
 }
 

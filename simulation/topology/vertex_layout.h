@@ -7,9 +7,9 @@
 
 namespace weft {
 
-/// All vertices as items of vertex-wise solvers, stored by (phase, strip, colour), and by vertex
-/// within. Vertices with an element that crosses between two strips belong to the seam phase, all
-/// others to the inner phase.
+/// All vertices as items of vertex-wise solvers, stored by (phase, strip, colour), and within by
+/// number of neighbours, most first, and by vertex. Vertices with an element that crosses between
+/// two strips belong to the seam phase, all others to the inner phase.
 ///
 /// Vertices of one phase and colour share no element, in all strips together. Seam s counts as
 /// strip s, so the last strip's seam segments are empty. Depends on the mesh only.

@@ -34,7 +34,9 @@ struct Merged {
     void average() { run(launch(kernels::average_positions, Segments{}, own, input)); }
 
 private:
-    static void run(const Launch& launch) { run_on_host(launch, launch.kernel->packed, 0, kCount); }
+    static void run(const Launch& launch) {
+        run_on_host(launch, launch.kernel->form(8), 0, kCount);
+    }
 };
 
 TEST(Exchange, MotionOfOneSideIsTakenInFull) {

@@ -101,7 +101,7 @@ TEST(Hinges, ConserveLinearAndAngularMomentum) {
         weights[h] = -(weights[h + kCount] + weights[h + 2 * kCount] + weights[h + 3 * kCount]);
     }
     const std::vector<float4> before(positions.span().begin(), positions.span().end());
-    run_on_host(made->launch, made->launch.kernel->packed, 0, made->items);
+    run_on_host(made->launch, made->launch.kernel->form(8), 0, made->items);
     for (std::size_t h = 0; h < kCount; ++h) {
         Vec3 linear, angular;
         double flow = 0.0;

@@ -43,7 +43,7 @@ struct Particles {
 
 private:
     static void run(const Launch& launch) {
-        run_on_host(launch, launch.kernel->packed, 0, kCount, 1);
+        run_on_host(launch, launch.kernel->form(8), 0, kCount, 1);
     }
 };
 
@@ -109,7 +109,7 @@ TEST(Motion, PinsAreCarriedByTheirGroupsMap) {
     rows[2] = {-1.0f, 0.0f, 0.0f, 0.5f};
     const Launch move =
         launch(kernels::move_pins, Segments{}, positions, vertices, rest, motions, 2, 1, kInstance);
-    run_on_host(move, move.kernel->packed, 0, 2, 1);
+    run_on_host(move, move.kernel->form(8), 0, 2, 1);
     EXPECT_EQ(positions[3].x, 13.0f);
     EXPECT_EQ(positions[3].y, 2.0f);
     EXPECT_EQ(positions[3].z, -0.5f);

@@ -97,7 +97,7 @@ TEST(Springs, ConserveLinearAndAngularMomentum) {
     auto& ends = made->buffer<int>(1);
     for (float4& x : positions.span()) x.w = made->random.real(0.1f, 10.0f);
     const std::vector<float4> before(positions.span().begin(), positions.span().end());
-    run_on_host(made->launch, made->launch.kernel->packed, 0, made->items);
+    run_on_host(made->launch, made->launch.kernel->form(8), 0, made->items);
     for (std::size_t s = 0; s < 500; ++s) {
         Vec3 linear, angular;
         double flow = 0.0;

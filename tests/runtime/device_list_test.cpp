@@ -129,7 +129,7 @@ TEST(DeviceList, EveryAvailableDeviceOpens) {
 }
 
 TEST(DeviceList, OptionsOverruleWhatADeviceSaysOfItself) {
-    EXPECT_EQ(open_devices("cpu/1").front()->info().lanes, 8);
+    EXPECT_EQ(open_devices("cpu/1").front()->info().lanes, kernels::widest_pack());
     DeviceOptions options;
     options.cpu_lanes = options.opencl_lanes = 1;
     options.memory = MemoryModel::kDiscrete;

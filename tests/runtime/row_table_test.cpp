@@ -48,11 +48,10 @@ TEST_F(RowTables, EveryEntryHasAPlaceOfItsOwn) {
     EXPECT_LT(*all.rbegin(), static_cast<int>(column.count()));
 }
 
-/// The 8 items of a slice stand beside each other, so that a pack of lanes reads one stretch.
+/// The items of a slice stand beside each other, so that a pack of lanes reads one stretch.
 TEST_F(RowTables, PacksAreContiguous) {
     RowTable table("table", items_, 3);
-    for (const int first : {0, 3, 11, 19, 23}) {
-        const int end = first == 0 ? 3 : (first == 19 ? 23 : first + 8);
+    for (const auto& [first, end] : {std::pair{0, 3}, {3, 11}, {11, 19}, {19, 23}, {23, 31}}) {
         for (int item = first; item < end; ++item) {
             EXPECT_EQ(table.rows()[static_cast<std::size_t>(item)],
                       table.rows()[static_cast<std::size_t>(first)] + item - first);

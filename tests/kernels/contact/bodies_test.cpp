@@ -126,7 +126,7 @@ struct CrossedEdges {
         measures{"measures", kVertices};
     Buffer<float> multipliers{"multipliers", kVertices};
     Buffer<int> push_rows{"push_rows", 4}, push_counts{"push_counts", 2},
-        push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_CONTACT_STRIDE*kRoom};
+        push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_ROW_STRIDE*kRoom};
     Buffer<float4> sides{"sides", codes.count()}, slips{"slips", codes.count()},
         forces{"forces", codes.count()}, points{"points", codes.count()},
         other_points{"other_points", codes.count()}, standing{"standing", 2};

@@ -12,7 +12,7 @@ VirtualMachine::VirtualMachine(std::vector<Speed> given, double given_latency,
     : speeds(std::move(given)), latency(given_latency), asleep_(speeds.size(), true) {
     for (std::size_t d = 0; d < speeds.size(); ++d) {
         const int team = teams.empty() ? 0 : teams[d];
-        devices_.push_back(make_cpu_device(team == 0 ? 1 : 2, {}, 8, team));
+        devices_.push_back(make_cpu_device(team == 0 ? 1 : 2, {}, 0, team));
     }
 }
 

@@ -23,7 +23,7 @@ constexpr int kPlenty = 200;
 using Devices = std::vector<std::unique_ptr<Device>>;
 using Rows = std::vector<std::vector<int>>;
 
-Devices cpus(int count, int lanes = 8) {
+Devices cpus(int count, int lanes = 0) {
     Devices devices;
     for (int d = 0; d < count; ++d) devices.push_back(make_cpu_device(1, {}, lanes));
     return devices;
@@ -246,7 +246,7 @@ TEST(ContactPairs, OfSheetsExactlyAboveEachOtherPushVertexByVertex) {
 
 TEST_P(ContactPairsOf, AreTheSameByEveryCutOnEveryCpu) {
     const Found expected = Detection(mesh_, cpus(1), kPlenty).find();
-    for (const int lanes : {1, 8}) {
+    for (const int lanes : {1, 8, 16}) {
         Detection run(mesh_, cpus(2, lanes), 8);
         for (int cut = 0; cut <= run.strip_count(); ++cut) {
             EXPECT_EQ(run.find({{cut, run.strip_count() - cut}}), expected)

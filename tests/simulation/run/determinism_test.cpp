@@ -127,10 +127,12 @@ TEST_P(Determinism, TwoThreads) {
     EXPECT_EQ(hash_on("cpu"), GetParam().hash);
 }
 
-TEST_P(Determinism, ScalarKernels) {
-    DeviceOptions options;
-    options.cpu_lanes = 1;
-    EXPECT_EQ(hash_on("cpu/1", options), GetParam().hash);
+TEST_P(Determinism, ScalarKernelsAndPacksOfAllWidths) {
+    for (const int lanes : {1, 8, 16}) {
+        DeviceOptions options;
+        options.cpu_lanes = lanes;
+        EXPECT_EQ(hash_on("cpu/1", options), GetParam().hash) << lanes << " lanes";
+    }
 }
 
 TEST_P(Determinism, EveryCutBetweenTwoCpuDevices) { expect_same_for_every_cut(opened({}, 2)); }

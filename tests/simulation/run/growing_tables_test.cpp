@@ -77,7 +77,7 @@ protected:
     int generation_ = 0;                 ///< at the end of the last hash_of()
 };
 
-Devices cpus(int count, int lanes = 8) {
+Devices cpus(int count, int lanes = 0) {
     Devices devices;
     for (int d = 0; d < count; ++d) devices.push_back(make_cpu_device(1, {}, lanes));
     return devices;

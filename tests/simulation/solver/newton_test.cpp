@@ -79,7 +79,7 @@ public:
     static void run(const std::vector<Launch>& launches) {
         for (const Launch& launch : launches) {
             for (int strip = 0; strip < launch.segments.strip_count; ++strip) {
-                run_on_host(launch, launch.kernel->packed, launch.segments.item(strip),
+                run_on_host(launch, launch.kernel->form(8), launch.segments.item(strip),
                             launch.segments.item(strip + 1));
             }
         }

@@ -79,8 +79,13 @@ void add_elements(Fingerprint& print, const TopologyMesh& mesh, const Strips& st
     }
 }
 
+/// Vertices of a segment do not see each other: in which order they lie there is no matter.
 void add_vertices(Fingerprint& print, const TopologyMesh& mesh, const Strips& strips) {
-    const VertexLayout layout = make_vertex_layout(in_new_vertices(mesh, strips), strips);
+    VertexLayout layout = make_vertex_layout(in_new_vertices(mesh, strips), strips);
+    for (std::size_t s = 0; s + 1 < layout.segment_begin.size(); ++s) {
+        std::sort(layout.vertices.begin() + layout.segment_begin[s],
+                  layout.vertices.begin() + layout.segment_begin[s + 1]);
+    }
     print.add(layout.vertices);
     print.add(layout.segment_begin);
 }

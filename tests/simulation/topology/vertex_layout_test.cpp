@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "simulation/topology/vertex_graph.h"
 #include "tests/simulation/topology/meshes.h"
 
 namespace weft::test {
@@ -23,17 +24,19 @@ void expect_valid(std::span<const Stencils> kinds, const Strips& strips,
     ASSERT_EQ(layout.segment_begin.size(), static_cast<std::size_t>(layout.segment_count()) + 1);
     ASSERT_EQ(layout.segment_begin.front(), 0);
     ASSERT_EQ(layout.segment_begin.back(), static_cast<int>(count));
+    const VertexGraph graph(static_cast<int>(count), kinds);
     std::vector<Place> places(count);
     for (int phase = 0; phase < kPhaseCount; ++phase) {
         for (int strip = 0; strip < layout.strip_count; ++strip) {
             for (int c = 0; c < layout.colour_count[static_cast<std::size_t>(phase)]; ++c) {
                 const auto segment = static_cast<std::size_t>(layout.segment(phase, c, strip));
-                int last = -1;
+                std::pair<long, int> last{-1000000, -1};
                 for (int i = layout.segment_begin[segment]; i < layout.segment_begin[segment + 1];
                      ++i) {
                     const int v = layout.vertices[static_cast<std::size_t>(i)];
-                    EXPECT_GT(v, last) << "ascending within a segment";
-                    last = v;
+                    const std::pair own{-std::ssize(graph.neighbours(v)), v};
+                    EXPECT_GT(own, last) << "ascending within a segment";
+                    last = own;
                     EXPECT_EQ(places[static_cast<std::size_t>(v)].phase, -1) << "named twice";
                     places[static_cast<std::size_t>(v)] = {phase, strip, c};
                 }
