@@ -302,13 +302,22 @@ private:
     std::jthread worker_;
 };
 
+int lanes_in_use(int wanted) {
+    if (wanted == 0) return kernels::widest_pack();
+    if (wanted != 1 && wanted != 8 && wanted != 16) {
+        throw Misuse("cpu_lanes is " + std::to_string(wanted) +
+                     "; kernels take 1, 8 or 16 items per call, or what suits the processor: 0");
+    }
+    return std::min(wanted, kernels::widest_pack());
+}
+
 class CpuDevice final : public Device {
 public:
     CpuDevice(int threads, std::vector<int> cores, int lanes, int team) {
         info_.name = "TBB, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         info_.kind = "tbb";
         info_.units = threads;
-        info_.lanes = lanes == 0 ? kernels::widest_pack() : std::min(lanes, kernels::widest_pack());
+        info_.lanes = lanes_in_use(lanes);
         info_.cores = std::move(cores);
         info_.team = team;
     }

@@ -257,6 +257,15 @@ TEST(Misuse, AKernelWithoutTextForOpenCl) {
                    {"'own::partial'", "OpenCL", "weft_add_kernels"});
 }
 
+TEST(Misuse, PacksOfASizeThatNoKernelHas) {
+    for (const int lanes : {-1, 4, 32}) {
+        DeviceOptions options;
+        options.cpu_lanes = lanes;
+        expect_message([&] { open_devices("cpu/1", options); },
+                       {"cpu_lanes is " + std::to_string(lanes), "1, 8 or 16"});
+    }
+}
+
 // ---- work and runners ----
 
 TEST(Misuse, WorkWithoutStagesOrStrips) {
