@@ -1,6 +1,7 @@
 #include "runtime/row_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "runtime/error.h"
@@ -15,6 +16,9 @@ constexpr long kMostEntries = std::numeric_limits<int>::max() - RowTable::kStrid
 
 /// How much room rows get at the most because others, far from them, are long [entries].
 constexpr int kMostForAll = 16;
+
+/// By how much rows get longer at least [entries].
+constexpr int kLeastMore = 4;
 
 /// Rounded up to whole slices.
 int slices_of(int items) { return (items + RowTable::kStride - 1) / RowTable::kStride; }
@@ -78,16 +82,33 @@ bool RowTable::overflowed() const {
     return false;
 }
 
-/// What grow() leaves is never tight.
-bool RowTable::is_tight(int strip) const {
-    return 4L * most_needed(strip) > 3L * room_[static_cast<std::size_t>(strip)];
+/// Had everybody had room.
+int RowTable::most_wanted(int strip, std::span<const float> unseen) const {
+    const double times = unseen.empty() ? 1.0 : double{unseen[static_cast<std::size_t>(strip)]};
+    const double most = std::ceil(static_cast<double>(most_needed(strip)) * times);
+    return static_cast<int>(std::min(most, static_cast<double>(kMostEntries)));
 }
 
-bool RowTable::is_tight() const {
+/// What grow() leaves is never tight.
+bool RowTable::is_tight(int strip, int wanted) const {
+    return 4L * wanted > 3L * room_[static_cast<std::size_t>(strip)];
+}
+
+bool RowTable::is_tight(std::span<const float> unseen) const {
     for (int strip = 0; strip < items_.strip_count; ++strip) {
-        if (is_tight(strip)) return true;
+        if (is_tight(strip, most_wanted(strip, unseen))) return true;
     }
     return false;
+}
+
+std::vector<float> RowTable::shortages() const {
+    std::vector<float> times(room_.size());
+    for (int strip = 0; strip < items_.strip_count; ++strip) {
+        const auto s = static_cast<std::size_t>(strip);
+        const auto room = static_cast<float>(std::max(room_[s], 1));
+        times[s] = std::max(static_cast<float>(most_needed(strip)) / room, 1.0f);
+    }
+    return times;
 }
 
 /// most: that a strip has
@@ -100,12 +121,12 @@ int RowTable::room_for_all(int most) const {
                     static_cast<int>(std::min(affordable, static_cast<std::size_t>(most))));
 }
 
-void RowTable::grow() {
+void RowTable::grow(std::span<const float> unseen) {
     std::vector<int> room = room_;
     for (int strip = 0; strip < items_.strip_count; ++strip) {
-        if (!is_tight(strip)) continue;
-        const int most = most_needed(strip);
-        const int wanted = most + std::max(most / 2, 1);
+        const int most = most_wanted(strip, unseen);
+        if (!is_tight(strip, most)) continue;
+        const int wanted = most + std::max(most / 2, kLeastMore);
         const int last = std::min(strip + 1, items_.strip_count - 1);
         for (int near = std::max(strip - 1, 0); near <= last; ++near) {
             int& own = room[static_cast<std::size_t>(near)];

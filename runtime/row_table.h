@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -56,12 +57,17 @@ public:
     /// Whether a row wanted more than there was room for; needs() must be the host's.
     bool overflowed() const;
     /// Whether a row wanted so much that there is little left for the next frame.
-    bool is_tight() const;
+    /// unseen  as in grow()
+    bool is_tight(std::span<const float> unseen = {}) const;
     /// Makes room for all that was wanted and half as much again, in strips where it was tight, and
     /// as much in the strips beside them: where rows get longer, others soon do. So elsewhere too
     /// there is as much, as far as the table takes no more than `plenty` for it; at least half of
     /// the most that a strip has, up to 16.
-    void grow();
+    /// unseen  [strips] or empty: how many times as much would have been wanted, had what these rows
+    ///         are made of had the room that it lacked; see shortages()
+    void grow(std::span<const float> unseen = {});
+    /// [strips] how many times as much was wanted as there was room for; at least 1.
+    std::vector<float> shortages() const;
     /// How often it has grown.
     int generation() const { return age_[0]; }
     /// [1] the same, for kernels that keep entries over substeps: what they kept is gone then.
@@ -74,7 +80,8 @@ public:
 private:
     std::size_t entry_count() const;
     int most_needed(int strip) const;
-    bool is_tight(int strip) const;
+    int most_wanted(int strip, std::span<const float> unseen) const;
+    bool is_tight(int strip, int wanted) const;
     void place_rows();
     int room_for_all(int most) const;
 

@@ -1,5 +1,6 @@
 #include "runtime/planning/planned_executor.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <numeric>
@@ -15,6 +16,12 @@ std::vector<int> numbers_below(std::size_t count) {
     std::vector<int> numbers(count);
     std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
+}
+
+void grow(RowTable& table, std::span<const float> unseen, Executor& executor) {
+    table.grow(unseen);
+    executor.rebind(table.resized_buffers());
+    for (BufferStorage* buffer : table.written_buffers()) executor.host_wrote(*buffer);
 }
 
 }  // namespace
@@ -178,21 +185,28 @@ void PlannedExecutor::record(const FramePlan& plan, const RunTimes& times, int i
 bool PlannedExecutor::make_room() { return grow_tables(maker_->tables(), *executor_); }
 
 void PlannedExecutor::make_room_ahead() {
-    grow_tables(maker_->tables(), *executor_, &RowTable::is_tight);
+    for (RowTable* table : maker_->tables()) {
+        executor_->fetch(table->needs());
+        if (table->is_tight()) grow(*table, {}, *executor_);
+    }
 }
 
-bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor,
-                 bool (RowTable::*has_to_grow)() const) {
-    bool grew = false;
+/// What a table lacks hides from those behind it what they would have lacked, so these grow, too,
+/// lest it shows when the frame is run again.
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor) {
+    const auto larger = [](float a, float b) { return std::max(a, b); };
+    bool lacked = false;
+    std::vector<float> unseen;  // [strips]
     for (RowTable* table : tables) {
         executor.fetch(table->needs());
-        if (!(table->*has_to_grow)()) continue;
-        table->grow();
-        executor.rebind(table->resized_buffers());
-        for (BufferStorage* buffer : table->written_buffers()) executor.host_wrote(*buffer);
-        grew = true;
+        const std::vector<float> own = table->shortages();
+        if (unseen.size() != own.size()) unseen.assign(own.size(), 1.0f);
+        const bool lacks = table->overflowed();
+        if (lacks || (lacked && table->is_tight(unseen))) grow(*table, unseen, executor);
+        lacked = lacked || lacks;
+        std::ranges::transform(unseen, own, unseen.begin(), larger);
     }
-    return grew;
+    return lacked;
 }
 
 }  // namespace weft

@@ -108,8 +108,7 @@ private:
 
 /// Lets tables grow in which rows had no room in what the executor ran last; whether there were
 /// any.
-/// has_to_grow  another reason
-bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor,
-                 bool (RowTable::*has_to_grow)() const = &RowTable::overflowed);
+/// tables  in the order in which they are filled
+bool grow_tables(const std::vector<RowTable*>& tables, Executor& executor);
 
 }  // namespace weft

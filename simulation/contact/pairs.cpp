@@ -85,7 +85,8 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
 
 std::vector<RowTable*> ContactPairs::tables() {
     auto list = candidates_.tables();
-    list.insert(list.begin(), {&near_.table, &vt_.table, &tv_.table, &ee_.table});
+    list.insert(list.begin(), &near_.table);
+    list.insert(list.end(), {&vt_.table, &tv_.table, &ee_.table});
     return list;
 }
 

@@ -32,7 +32,17 @@ constexpr double kCreepSpeed = 1e-3;  ///< below which friction sticks [m/s]
 
 constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels/contact/fill.h
 constexpr float kFar = 1e29f;       ///< distances beyond this are none [m]; likewise
-constexpr int kFirstRoom = 4;       ///< of a row
+
+// Of a row.
+constexpr int kFirstPairs = 8;
+constexpr int kFewest = 4;  ///< contacts and planes; in small scenes more, as it costs little:
+constexpr int kMost = 27;   ///< not a power of 2, lest rows crowd in a few sets of a cache
+
+/// bytes  of an entry
+int first_room(const Model& model, std::size_t bytes) {
+    const std::size_t all = bytes * model.positions->count();
+    return std::clamp(static_cast<int>(RowTable::kPlenty / 4 / all), kFewest, kMost);
+}
 
 /// The largest coordinate [m].
 double reach_of(const Model& model) {
@@ -125,14 +135,14 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       stiffness_("contact.stiffness", model.positions->count()),
       pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips),
              rest_of(model), anchors_, goals_, strides_, model.vertices(),
-             {range_, floor_, model.scene.contact->self, kFirstRoom}, first_kind),
+             {range_, floor_, model.scene.contact->self, kFirstPairs}, first_kind),
       motion_(model, pairs_.surface(), model.scene.contact->thickness,
               2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),
       quiet_("contact.quiet_vertices", model.positions->count()),
       incidence_(pairs_.surface(), model.vertex_count()),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
-      planes_table_("contact.planes", model.vertices(), kFirstRoom),
-      contacts_("contact.contacts", model.vertices(), kFirstRoom),
+      planes_table_("contact.planes", model.vertices(), first_room(model, sizeof(float4))),
+      contacts_("contact.contacts", model.vertices(), first_room(model, 5 * sizeof(float4))),
       planes_(planes_table_.add_column<float4>("planes")),
       corner0_(contacts_.add_column<int>("corner0")),
       corner1_(contacts_.add_column<int>("corner1")),

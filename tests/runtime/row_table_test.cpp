@@ -89,6 +89,28 @@ TEST_F(RowTables, GrowsOnceForWhatIsWanted) {
     }
 }
 
+/// What a table is filled from had no room for all: what that hid is reckoned with.
+TEST_F(RowTables, GrowsForWhatItCouldNotSee) {
+    RowTable first("first", items_, 4, 0);
+    std::fill(first.needs().data(), first.needs().data() + 31, 4);
+    first.needs()[10] = 12;
+    EXPECT_EQ(first.shortages(), (std::vector<float>{1.0f, 1.0f, 3.0f, 1.0f}));
+    RowTable second("second", items_, 8, 0);
+    std::fill(second.needs().data(), second.needs().data() + 31, 5);
+    EXPECT_FALSE(second.is_tight());
+    EXPECT_TRUE(second.is_tight(first.shortages()));
+    second.grow(first.shortages());
+    places(second, {11, 22, 22, 22});
+}
+
+/// Rows of few entries get longer by more than a part of them, soon.
+TEST_F(RowTables, ShortRowsGrowBySeveralEntries) {
+    RowTable table("table", items_, 1, 0);
+    std::fill(table.needs().data(), table.needs().data() + 31, 2);
+    table.grow();
+    places(table, {6, 6, 6, 6});
+}
+
 /// One crowded strip must not cost all others its memory.
 TEST_F(RowTables, FarFromLongRowsRoomIsBounded) {
     RowTable table("table", items_, 2, 0);
