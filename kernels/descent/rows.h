@@ -6,8 +6,8 @@
 //
 // Items are vertices in an order of the solver's own. The elements of an item are its row. Rows lie
 // in slices of 16 items (SELL-C, Kreutzer et al. 2014): entry k of an item stands at start + stride
-// k, and the items of a pack are neighbours in memory. All rows of a pack have the length of its
-// first; short ones end with entries that contribute nothing.
+// k, and the items of a pack are neighbours in memory. All rows of a pack are as long as its
+// longest one; short ones end with entries that contribute nothing.
 
 #include "kernels/matrix.h"
 #include "kernels/platform.h"
@@ -15,9 +15,12 @@
 
 WEFT_KERNELS_BEGIN
 
-/// slices [2 * items] start of the item's row, length of the rows of a pack that begins with it
+/// slices [2 * items] start of the item's row, length of the rows of 8 items that begin with it
 WEFT_INLINE int row_length(WEFT_GLOBAL const int* slices, item i) {
-    return slices[2 * i.first + 1];
+    const int length = slices[2 * i.first + 1];
+    if (i.count <= 8) return length;
+    const int others = slices[2 * (i.first + 8) + 1];
+    return length > others ? length : others;
 }
 
 /// Where the k-th entries of the items' rows are.

@@ -18,6 +18,10 @@ std::array<int, 4> corners_of(const Coupling& c, int arity) {
     return corners;
 }
 
+int row_vertex(const Elements& elements, std::span<const Coupling> row) {
+    return elements.vertex_of(row.front().element, row.front().j);
+}
+
 }  // namespace
 
 std::vector<int> BlockList::lengths() const {
@@ -32,16 +36,33 @@ BlockRowTables::BlockRowTables(const std::string& name, const Elements& elements
       rows_(name + ".block_rows", list.segment_begin, list.lengths()),
       corners_(name + ".block_corners", entries() * static_cast<std::size_t>(elements.arity())),
       couplings_(entries(), Coupling{-1, 0, 0}) {
+    for (std::size_t s = 0; s + 1 < list.segment_begin.size(); ++s) {
+        int vertex = -1;  // the last block's, or else the next one's
+        for (int block = list.segment_begin[s]; block < list.segment_begin[s + 1]; ++block) {
+            if (list[block].empty()) continue;
+            vertex = row_vertex(elements, list[block]);
+            break;
+        }
+        for (int block = list.segment_begin[s]; block < list.segment_begin[s + 1]; ++block) {
+            if (!list[block].empty()) vertex = row_vertex(elements, list[block]);
+            place(block, vertex, elements, list[block]);
+        }
+    }
+}
+
+/// vertex: for what only fills the row up
+void BlockRowTables::place(int block, int vertex, const Elements& elements,
+                           std::span<const Coupling> row) {
     const auto arity = static_cast<std::size_t>(elements.arity());
-    for (int block = 0; block < list.count(); ++block) {
-        int k = 0;
-        for (const Coupling& coupling : list[block]) {
-            const std::size_t place = rows_.entry(block, k++);
-            couplings_[place] = coupling;
-            const std::array<int, 4> corners = corners_of(coupling, arity_);
-            for (std::size_t c = 0; c < arity; ++c) {
-                corners_[c * entries() + place] = elements.vertex_of(coupling.element, corners[c]);
-            }
+    const int room = rows_.room(block);
+    for (int k = 0; k < room; ++k) {
+        const std::size_t entry = rows_.entry(block, k);
+        for (std::size_t c = 0; c < arity; ++c) corners_[c * entries() + entry] = vertex;
+        if (static_cast<std::size_t>(k) >= row.size()) continue;
+        const Coupling& coupling = couplings_[entry] = row[static_cast<std::size_t>(k)];
+        const std::array<int, 4> corners = corners_of(coupling, arity_);
+        for (std::size_t c = 0; c < arity; ++c) {
+            corners_[c * entries() + entry] = elements.vertex_of(coupling.element, corners[c]);
         }
     }
 }

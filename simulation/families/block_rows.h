@@ -55,6 +55,8 @@ public:
     void filled() { give_back(couplings_); }
 
 private:
+    void place(int block, int vertex, const Elements& elements, std::span<const Coupling> row);
+
     int arity_;
     SlicedRows rows_;
     Buffer<int> corners_;

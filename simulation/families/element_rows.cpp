@@ -29,7 +29,8 @@ ElementRows::ElementRows(const std::string& name, const Elements& elements,
     for (int i = 0; i < items.count(); ++i) {
         const int vertex = items.vertex(i);
         const auto row = corners.at[vertex];
-        for (int k = 0; k < rows_.length(i); ++k) {
+        const int room = rows_.room(i);
+        for (int k = 0; k < room; ++k) {
             const std::size_t entry = rows_.entry(i, k);
             for (std::size_t o = 0; o < others; ++o) others_[o * entries() + entry] = vertex;
             if (static_cast<std::size_t>(k) >= row.size()) continue;

@@ -6,24 +6,43 @@
 
 namespace weft {
 
+namespace {
+
+constexpr int kHalf = 8;  ///< lanes of a narrow pack
+
+}  // namespace
+
 SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_begin,
                        std::span<const int> lengths, int stride)
     : stride_(stride), slices_(name, 2 * lengths.size()) {
     WEFT_ASSERT(segment_begin.back() == std::ssize(lengths));
     for (std::size_t s = 0; s + 1 < segment_begin.size(); ++s) {
         for (int first = segment_begin[s]; first < segment_begin[s + 1]; first += stride) {
-            const int end = std::min(first + stride, segment_begin[s + 1]);
-            int longest = 0;
-            for (int i = end - 1; i >= first; --i) {
-                const auto at = static_cast<std::size_t>(i);
-                WEFT_ASSERT(lengths[at] >= 0);
-                longest = std::max(longest, lengths[at]);
-                slices_[2 * at] = entry_count_ + i - first;
-                slices_[2 * at + 1] = longest;
-            }
-            entry_count_ += stride * longest;
+            add_slice(first, lengths.subspan(static_cast<std::size_t>(first),
+                                             static_cast<std::size_t>(
+                                                 std::min(stride, segment_begin[s + 1] - first))));
         }
     }
+}
+
+void SlicedRows::add_slice(int first, std::span<const int> lengths) {
+    list_.push_back({first, *std::ranges::max_element(lengths)});
+    int longest = 0;
+    for (int lane = static_cast<int>(lengths.size()) - 1; lane >= 0; --lane) {
+        const int length = lengths[static_cast<std::size_t>(lane)];
+        WEFT_ASSERT(length >= 0);
+        const bool ends_half = lane % kHalf == kHalf - 1;
+        longest = ends_half ? length : std::max(longest, length);
+        const auto item = 2 * static_cast<std::size_t>(first + lane);
+        slices_[item] = entry_count_ + lane;
+        slices_[item + 1] = longest;
+    }
+    entry_count_ += stride_ * list_.back().longest;
+}
+
+int SlicedRows::room(int item) const {
+    const auto next = std::ranges::upper_bound(list_, item, {}, &Slice::first);
+    return std::prev(next)->longest;
 }
 
 }  // namespace weft

@@ -44,14 +44,14 @@ public:
         return candidates_[family(leader)].elements[element_[leader]][number];
     }
 
-    /// Of each corner. Rows of elements that share a pack are about as long when stencils lie by
+    /// Of all corners. Rows of elements that share a pack are about as long when stencils lie by
     /// these.
-    std::array<std::size_t, 4> neighbours(const VertexGraph& graph, int leader, int corners) const {
-        std::array<std::size_t, 4> counts{};
+    std::size_t neighbours(const VertexGraph& graph, int leader, int corners) const {
+        std::size_t count = 0;
         for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) {
-            counts[k] = graph.neighbours(corner(leader, k)).size();
+            count += graph.neighbours(corner(leader, k)).size();
         }
-        return counts;
+        return count;
     }
 
 private:

@@ -72,7 +72,8 @@ private:
                 others_[entry] = other;
                 weights_[entry] = static_cast<float>(weight_of(hinges, own));
             });
-            for (; k < rows_.length(i); ++k) others_[rows_.entry(i, k)] = vertex;  // no weight
+            const int room = rows_.room(i);
+            for (; k < room; ++k) others_[rows_.entry(i, k)] = vertex;  // no weight
         }
     }
 

@@ -59,7 +59,8 @@ BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips)
             list.ranges[entry] = {begin, static_cast<int>(own.size())};
             begin += list.ranges[entry].count;
         });
-        for (; k < rows_.length(v); ++k) others_[rows_.entry(v, k)] = v;
+        const int room = rows_.room(v);
+        for (; k < room; ++k) others_[rows_.entry(v, k)] = v;
     }
     for (std::size_t s = 0; s < strips.begin.size(); ++s) {
         const int first = strips.begin[s];
