@@ -4,37 +4,37 @@
 
 namespace weft {
 
-ElementRows::Corners::Corners(const Elements& elements, const VertexItems& items)
-    : at(items.count(), [&](const auto& put) {
-          for (int e = 0; e < elements.count(); ++e) {
-              int corner = 0;
-              for (const int vertex : elements.vertices_of(e)) put(vertex, Corner{e, corner++});
-          }
-      }) {
+namespace {
+
+std::vector<int> lengths_of(const Grouped<ElementCorner>& corners, const VertexItems& items) {
+    std::vector<int> lengths;
     for (int i = 0; i < items.count(); ++i) {
-        lengths.push_back(static_cast<int>(at[items.vertex(i)].size()));
+        lengths.push_back(static_cast<int>(corners[items.vertex(i)].size()));
     }
+    return lengths;
 }
+
+}  // namespace
 
 ElementRows::ElementRows(const std::string& name, const Elements& elements,
                          const VertexItems& items)
-    : ElementRows(name, elements, items, Corners(elements, items)) {}
+    : ElementRows(name, elements, items, corners_at_vertices(elements, items.count())) {}
 
 ElementRows::ElementRows(const std::string& name, const Elements& elements,
-                         const VertexItems& items, const Corners& corners)
-    : rows_(name + ".rows", items.segment_begin(), corners.lengths),
+                         const VertexItems& items, const Grouped<ElementCorner>& corners)
+    : rows_(name + ".rows", items.segment_begin(), lengths_of(corners, items)),
       others_(name + ".others", entries() * static_cast<std::size_t>(elements.arity() - 1)),
-      corners_(entries(), Corner{-1, 0}) {
+      corners_(entries(), ElementCorner{-1, 0}) {
     const auto others = static_cast<std::size_t>(elements.arity() - 1);
     for (int i = 0; i < items.count(); ++i) {
         const int vertex = items.vertex(i);
-        const auto row = corners.at[vertex];
+        const auto row = corners[vertex];
         const int room = rows_.room(i);
         for (int k = 0; k < room; ++k) {
             const std::size_t entry = rows_.entry(i, k);
             for (std::size_t o = 0; o < others; ++o) others_[o * entries() + entry] = vertex;
             if (static_cast<std::size_t>(k) >= row.size()) continue;
-            const Corner at = corners_[entry] = row[static_cast<std::size_t>(k)];
+            const ElementCorner at = corners_[entry] = row[static_cast<std::size_t>(k)];
             const auto vertices = elements.vertices_of(at.element);
             for (std::size_t o = 0; o < others; ++o) {
                 const auto next = (static_cast<std::size_t>(at.corner) + 1 + o) % vertices.size();
@@ -47,7 +47,7 @@ ElementRows::ElementRows(const std::string& name, const Elements& elements,
 void ElementRows::fill(Buffer<float>& table, const Numbers& numbers) const {
     WEFT_ASSERT(corners_.size() == entries());
     for (std::size_t entry = 0; entry < entries(); ++entry) {
-        const Corner& at = corners_[entry];
+        const ElementCorner& at = corners_[entry];
         if (at.element < 0) continue;
         std::size_t place = entry;
         for (const double number : numbers(at.element, at.corner)) {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "runtime/unused_memory.h"
+#include "simulation/families/element_corners.h"
 #include "simulation/families/family.h"
 #include "simulation/families/few_numbers.h"
 #include "simulation/families/sliced_rows.h"
-#include "simulation/topology/grouped.h"
 
 namespace weft {
 
@@ -34,24 +34,13 @@ public:
     void filled() { give_back(corners_); }
 
 private:
-    /// A corner of an element, seen from the vertex that it is at.
-    struct Corner {
-        int element;
-        int corner;
-    };
-    /// Which corners of elements are at each vertex.
-    struct Corners {
-        Grouped<Corner> at;        ///< [vertices]
-        std::vector<int> lengths;  ///< [items] how many
-
-        Corners(const Elements& elements, const VertexItems& items);
-    };
+    /// corners: at each vertex
     ElementRows(const std::string& name, const Elements& elements, const VertexItems& items,
-                const Corners& corners);
+                const Grouped<ElementCorner>& corners);
 
     SlicedRows rows_;
     Buffer<int> others_;
-    std::vector<Corner> corners_;  ///< [entries] element -1: fills a row up; empty: filled()
+    std::vector<ElementCorner> corners_;  ///< [entries] element -1: fills a row up; empty: filled()
 };
 
 }  // namespace weft

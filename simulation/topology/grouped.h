@@ -14,12 +14,16 @@ public:
     /// for_each(put): calls put(group, value) for all there are; the same ones each time. Values of
     /// a group stay in their order.
     template <class ForEach>
-    Grouped(int groups, const ForEach& for_each) : begin_(static_cast<std::size_t>(groups) + 1, 0) {
+    Grouped(int groups, const ForEach& for_each) : begin_(at(groups) + 1, 0) {
         for_each([&](int group, const T&) { ++begin_[at(group) + 1]; });
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        values_.resize(begin_.back());
-        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        for_each([&](int group, const T& value) { values_[next[at(group)]++] = value; });
+        put_all(for_each);
+    }
+    /// Where it is known how many values a group has: size_of(group). They are asked for once then.
+    template <class SizeOf, class ForEach>
+    Grouped(int groups, const SizeOf& size_of, const ForEach& for_each)
+        : begin_(at(groups) + 1, 0) {
+        for (int group = 0; group < groups; ++group) begin_[at(group) + 1] = size_of(group);
+        put_all(for_each);
     }
 
     int count() const { return static_cast<int>(begin_.size()) - 1; }
@@ -33,6 +37,14 @@ public:
     std::span<const T> values() const { return values_; }
 
 private:
+    /// begin_ has the sizes of the groups before.
+    template <class ForEach>
+    void put_all(const ForEach& for_each) {
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        values_.resize(begin_.back());
+        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+        for_each([&](int group, const T& value) { values_[next[at(group)]++] = value; });
+    }
     static std::size_t at(int group) { return static_cast<std::size_t>(group); }
 
     std::vector<std::size_t> begin_;  ///< [groups + 1]

@@ -1,30 +1,41 @@
 #include "simulation/topology/vertex_graph.h"
 
-#include <algorithm>
-
-#include "simulation/topology/grouped.h"
+#include <vector>
 
 namespace weft {
 
+namespace {
+
+/// The elements of a kind at each vertex.
+Grouped<int> elements_at_vertices(int vertex_count, const Stencils& kind) {
+    return {vertex_count, [&](const auto& put) {
+                for (int e = 0; e < kind.count(); ++e) {
+                    for (const int v : kind[e]) put(v, e);
+                }
+            }};
+}
+
+}  // namespace
+
+/// The others come one by one, so that nothing has to be sorted, and who comes again does so next.
 VertexGraph::VertexGraph(int vertex_count, std::span<const Stencils> kinds) {
-    Grouped<int> lists(vertex_count, [&](const auto& put) {
-        for (const Stencils& kind : kinds) {
-            for (int e = 0; e < kind.count(); ++e) {
-                for (const int v : kind[e]) {
-                    for (const int other : kind[e]) {
-                        if (other != v) put(v, other);
+    std::vector<Grouped<int>> elements;
+    for (const Stencils& kind : kinds) elements.push_back(elements_at_vertices(vertex_count, kind));
+    neighbours_ = Grouped<int>(vertex_count, [&](const auto& put) {
+        std::vector<int> last(static_cast<std::size_t>(vertex_count), -1);
+        for (int other = 0; other < vertex_count; ++other) {
+            last[static_cast<std::size_t>(other)] = other;
+            for (std::size_t k = 0; k < kinds.size(); ++k) {
+                for (const int e : elements[k][other]) {
+                    for (const int v : kinds[k][e]) {
+                        int& known = last[static_cast<std::size_t>(v)];
+                        if (known != other) put(v, other);
+                        known = other;
                     }
                 }
             }
         }
     });
-    begin_.push_back(0);
-    for (int v = 0; v < vertex_count; ++v) {
-        const std::span<int> list = lists[v];
-        std::sort(list.begin(), list.end());
-        neighbours_.insert(neighbours_.end(), list.begin(), std::unique(list.begin(), list.end()));
-        begin_.push_back(static_cast<int>(neighbours_.size()));
-    }
 }
 
 }  // namespace weft

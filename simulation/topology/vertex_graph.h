@@ -1,8 +1,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "simulation/topology/grouped.h"
 #include "simulation/topology/stencils.h"
 
 namespace weft {
@@ -12,16 +12,12 @@ class VertexGraph {
 public:
     VertexGraph(int vertex_count, std::span<const Stencils> kinds);
 
-    int vertex_count() const { return static_cast<int>(begin_.size()) - 1; }
+    int vertex_count() const { return neighbours_.count(); }
     /// Ascending, without the vertex itself.
-    std::span<const int> neighbours(int vertex) const {
-        const auto v = static_cast<std::size_t>(vertex);
-        return {neighbours_.data() + begin_[v], neighbours_.data() + begin_[v + 1]};
-    }
+    std::span<const int> neighbours(int vertex) const { return neighbours_[vertex]; }
 
 private:
-    std::vector<int> begin_;
-    std::vector<int> neighbours_;
+    Grouped<int> neighbours_;
 };
 
 }  // namespace weft
