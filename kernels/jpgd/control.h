@@ -3,6 +3,7 @@
 
 // The step size's rule: from time to time the energy decides whether the last steps were good.
 
+#include "kernels/in_order.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
@@ -36,6 +37,7 @@ WEFT_KERNEL(decide_step, WEFT_GLOBAL float* control, WEFT_GLOBAL const float* pa
             float slack, int iteration) {
     if (i.first > 0) return;
     float energy = 0.0f;
+    WEFT_IN_ORDER
     for (int k = 0; k < count; ++k) energy += partials[k];
     float size = control[WEFT_STEP_SIZE];
     float last = control[WEFT_LAST_SIZE];

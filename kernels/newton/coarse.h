@@ -9,6 +9,7 @@
 // Unknown 3 a + c is component c of aggregate a; n = 3 * aggregates.
 
 #include "kernels/columns.h"
+#include "kernels/in_order.h"
 #include "kernels/newton/blocks.h"
 
 WEFT_KERNELS_BEGIN
@@ -79,10 +80,12 @@ WEFT_KERNEL(factor_coarse, WEFT_GLOBAL const int* pairs, WEFT_GLOBAL const float
             WEFT_GLOBAL const float* other = band + c * row + width - c;
             float value = own[c];
             const int common = c > width ? (first > c - width ? first : c - width) : first;
+            WEFT_IN_ORDER
             for (int k = common; k < c; ++k) value -= own[k] * other[k];
             own[c] = value;  // L D so far
         }
         float pivot = own[r];
+        WEFT_IN_ORDER
         for (int c = first; c < r; ++c) {
             const float scaled = own[c] * band[c * row + width];
             pivot -= own[c] * scaled;

@@ -13,6 +13,7 @@
 // vectors  p, s, d and w are [3 * vertices] column-major; r and u are float4, xyz
 
 #include "kernels/descent/rows.h"
+#include "kernels/in_order.h"
 #include "kernels/newton/blocks.h"
 
 // The dot products of a strip are summed in so many columns.
@@ -109,6 +110,7 @@ WEFT_KERNEL(add_dot_columns, WEFT_GLOBAL const float* columns, WEFT_GLOBAL const
         const int strip = i.first + lane;
         float gamma = 0.0f;
         float delta = 0.0f;
+        WEFT_IN_ORDER
         for (int c = 0; c < WEFT_DOT_COLUMNS; ++c) {
             gamma += columns[first[strip] + c];
             delta += columns[first[strip] + WEFT_DOT_COLUMNS + c];
@@ -132,6 +134,7 @@ WEFT_KERNEL(find_step, WEFT_GLOBAL const float* gammas, WEFT_GLOBAL const float*
             WEFT_GLOBAL float4* scalars, int strip_count) {
     float gamma_sum = 0.0f;
     float delta_sum = 0.0f;
+    WEFT_IN_ORDER
     for (int k = 0; k < strip_count; ++k) {
         gamma_sum += gammas[k];
         delta_sum += deltas[k];

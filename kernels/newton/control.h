@@ -7,6 +7,7 @@
 // In `control` stand WEFT_STEP_SIZE, which limits the length of the next step, WEFT_ENERGY and
 // WEFT_REVERT of jpgd/control.h.
 
+#include "kernels/in_order.h"
 #include "kernels/jpgd/control.h"
 #include "kernels/newton/blocks.h"
 
@@ -29,6 +30,7 @@ WEFT_KERNEL(decide_newton, WEFT_GLOBAL float* control, WEFT_GLOBAL const float* 
             float slack, int iteration) {
     if (i.first > 0) return;
     float energy = 0.0f;
+    WEFT_IN_ORDER
     for (int k = 0; k < count; ++k) energy += partials[k];
     const int is_first = iteration == 0;
     const float lowest = is_first ? energy : control[WEFT_ENERGY];

@@ -26,8 +26,8 @@ public:
 
     /// How many copies there are of what parts tell each other of, the maker's own included.
     virtual int iterate_count() const { return 1; }
-    /// Tables whose rows the tasks fill anew in every step, in the order in which they do. Where one
-    /// overflows, it grows, and the frame is done again from its start.
+    /// Tables whose rows the tasks fill anew in every step, in the order in which they do. Where
+    /// one overflows, it grows, and the frame is done again from its start.
     virtual std::vector<RowTable*> tables() { return {}; }
     /// Whether a part of the strips can be left to another device. False: the step is the same for
     /// every partition, and all that can be chosen is a device for each of its tasks.

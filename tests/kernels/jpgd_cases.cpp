@@ -109,8 +109,8 @@ Buffer<float>& add_control(KernelCase& c) {
 
 void decide_case(KernelCase& c) {
     auto& control = add_control(c);
-    auto& partials = add_reals(c, "partials", 10, 0.0f, 0.1f);
-    c.launch = launch(kernels::decide_step, c.segments, control, partials, 10, 1.5f, c.items % 3);
+    auto& partials = add_reals(c, "partials", 100, 0.0f, 0.01f);
+    c.launch = launch(kernels::decide_step, c.segments, control, partials, 100, 1.5f, c.items % 3);
 }
 
 void revert_case(KernelCase& c) {

@@ -250,11 +250,14 @@ void begin_steps_case(KernelCase& c) {
 
 /// Degenerate: nothing left to do, or no curvature.
 void find_step_case(KernelCase& c) {
+    constexpr int kStrips = 40;
     const bool is_random = c.flavour == Flavour::kRandom;
-    auto& gammas = add_reals(c, "gammas", 4, 0.0f, is_random || c.items % 2 == 0 ? 1.0f : 0.0f);
-    auto& deltas = add_reals(c, "deltas", 4, is_random ? 2.0f : 0.0f, is_random ? 9.0f : 0.0f);
+    auto& gammas =
+        add_reals(c, "gammas", kStrips, 0.0f, is_random || c.items % 2 == 0 ? 1.0f : 0.0f);
+    auto& deltas =
+        add_reals(c, "deltas", kStrips, is_random ? 2.0f : 0.0f, is_random ? 9.0f : 0.0f);
     auto& scalars = add_scalars(c, c.items);
-    c.launch = launch(kernels::find_step, c.segments, gammas, deltas, scalars, 4);
+    c.launch = launch(kernels::find_step, c.segments, gammas, deltas, scalars, kStrips);
 }
 
 void take_step_case(KernelCase& c) {
@@ -285,11 +288,12 @@ void restrict_case(KernelCase& c) {
 /// A chain of aggregates, the first one tied to what is held. Degenerate: nothing at all.
 void factor_case(KernelCase& c) {
     const float size = c.flavour == Flavour::kRandom ? 1.0f : 0.0f;
-    constexpr int kWidth = 5;
+    constexpr int kReach = 13;
+    constexpr int kWidth = 3 * kReach + 2;
     auto& pairs = c.add<int>("pairs", 2 * c.items);
     for (int a = 0; a < c.items; ++a) {
         pairs[at(2 * a)] = a;
-        pairs[at(2 * a + 1)] = a > 0 ? a - 1 : 0;
+        pairs[at(2 * a + 1)] = std::max(a - kReach, 0);
     }
     auto& blocks = add_reals(c, "blocks", 9 * c.items, -0.1f * size, 0.1f * size);
     for (int a = 0; a < c.items; ++a) {
@@ -355,8 +359,9 @@ void sum_rows_case(KernelCase& c) {
 
 void decide_case(KernelCase& c) {
     auto& control = add_control(c);
-    auto& partials = add_reals(c, "partials", 10, 0.0f, 0.1f);
-    c.launch = launch(kernels::decide_newton, c.segments, control, partials, 10, 1.5f, c.items % 3);
+    auto& partials = add_reals(c, "partials", 100, 0.0f, 0.01f);
+    c.launch =
+        launch(kernels::decide_newton, c.segments, control, partials, 100, 1.5f, c.items % 3);
 }
 
 const bool added =
