@@ -20,6 +20,9 @@ constexpr int kMostForAll = 16;
 /// By how much rows get longer at least [entries].
 constexpr int kLeastMore = 4;
 
+/// A table that was far too small says little of others.
+constexpr float kMostUnseen = 4.0f;
+
 /// Rounded up to whole slices.
 int slices_of(int items) { return (items + RowTable::kStride - 1) / RowTable::kStride; }
 
@@ -82,11 +85,11 @@ bool RowTable::overflowed() const {
     return false;
 }
 
-/// Had everybody had room.
+/// Had everybody had room; no more than grow() can add to.
 int RowTable::most_wanted(int strip, std::span<const float> unseen) const {
     const double times = unseen.empty() ? 1.0 : double{unseen[static_cast<std::size_t>(strip)]};
     const double most = std::ceil(static_cast<double>(most_needed(strip)) * times);
-    return static_cast<int>(std::min(most, static_cast<double>(kMostEntries)));
+    return static_cast<int>(std::min(most, static_cast<double>(kMostEntries / 2)));
 }
 
 /// What grow() leaves is never tight.
@@ -106,7 +109,7 @@ std::vector<float> RowTable::shortages() const {
     for (int strip = 0; strip < items_.strip_count; ++strip) {
         const auto s = static_cast<std::size_t>(strip);
         const auto room = static_cast<float>(std::max(room_[s], 1));
-        times[s] = std::max(static_cast<float>(most_needed(strip)) / room, 1.0f);
+        times[s] = std::clamp(static_cast<float>(most_needed(strip)) / room, 1.0f, kMostUnseen);
     }
     return times;
 }

@@ -66,7 +66,7 @@ public:
     /// unseen  [strips] or empty: how many times as much would have been wanted, had what these rows
     ///         are made of had the room that it lacked; see shortages()
     void grow(std::span<const float> unseen = {});
-    /// [strips] how many times as much was wanted as there was room for; at least 1.
+    /// [strips] how many times as much was wanted as there was room for; from 1 to 4.
     std::vector<float> shortages() const;
     /// How often it has grown.
     int generation() const { return age_[0]; }
