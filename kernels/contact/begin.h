@@ -57,6 +57,7 @@ WEFT_KERNEL(count_cut, WEFT_GLOBAL const int* cut, WEFT_GLOBAL const float4* anc
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
     const whole now = load_whole(cut, i);
+    if (instance != 0 && largest_whole(now) == 0) return;
     const item second = column(i, vertex_count, 1);
     const whole before = instance == 0 ? none : load_whole(counts, i);
     const whole lost_before = instance == 0 ? none : load_whole(counts, second);

@@ -69,7 +69,7 @@ WEFT_NARROW_KERNEL(collect_triangles, WEFT_GLOBAL const float4* points,
                    int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
-    if (any_of_patches(stale, first_patch, last_patch)) {
+    if (any_in_range(stale, first_patch, last_patch)) {
         const whole patch = load_whole(patches, i);
         const whole is_stale = gather_whole(stale, address(patch));
         open_rows row = emptied_rows(rows, counts, is_stale, i, item_count);
@@ -123,7 +123,7 @@ WEFT_NARROW_KERNEL(collect_vertices, WEFT_GLOBAL const float4* points,
                    int item_count, float halo, float range, float spare, int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
-    if (any_of_patches(stale, first_patch, last_patch)) {
+    if (any_in_range(stale, first_patch, last_patch)) {
         const whole patch = load_whole(patches, i);
         const whole is_stale = gather_whole(stale, address(patch));
         open_rows row = emptied_rows(rows, counts, is_stale, i, item_count);
@@ -206,7 +206,7 @@ WEFT_NARROW_KERNEL(collect_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL 
                    int instance) {
     const int first_patch = patches[i.first];
     const int last_patch = patches[i.first + i.count - 1];
-    if (any_of_patches(stale, first_patch, last_patch)) {
+    if (any_in_range(stale, first_patch, last_patch)) {
         const whole patch = load_whole(patches, i);
         const whole is_stale = gather_whole(stale, address(patch));
         open_rows row = emptied_rows(rows, counts, is_stale, i, item_count);

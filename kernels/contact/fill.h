@@ -6,6 +6,7 @@
 // of a contact use: so all four see the same numbers.
 
 #include "kernels/columns.h"
+#include "kernels/contact/boxes.h"
 #include "kernels/contact/closest.h"
 #include "kernels/contact/rows.h"
 
@@ -226,37 +227,45 @@ WEFT_INLINE contact_rows add_contact(
     return row;
 }
 
-/// How many patches are near to those of a vertex, at the most.
-/// count  of its patches; 0: it has no business here
-WEFT_INLINE whole most_near(WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const int* near_counts,
-                            whole first, whole count) {
+/// Which patches have vertices that may have pairs, or had some in the substep before: rows of all
+/// others are empty, and stay so.
+/// around_begin, around  [items + 1], [entries] the patches that vertices of each patch belong to:
+///                       all that their pairs are of
+/// near_counts  [patches] how many patches are near to each
+/// busy         [items] written: 1 where one of those around is near to another one, and 2 more where
+///              one was in the substep before
+WEFT_KERNEL(find_busy_patches, WEFT_GLOBAL const int* around_begin, WEFT_GLOBAL const int* around,
+            WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL int* busy, int instance) {
     const whole none = splat_whole(0);
-    const int longest = largest_whole(count);
+    const whole one = splat_whole(1);
+    const whole begin = load_whole(around_begin, i);
+    const whole last = load_whole(around_begin, column(i, 1, 1)) - one;
+    const int longest = largest_whole(last - begin) + 1;
     whole most = none;
     for (int k = 0; k < longest; ++k) {
-        const mask on = splat_whole(k) < count;
-        const whole patch = gather_whole(patch_list, address(on ? first + splat_whole(k) : first));
-        const whole near = gather_whole(near_counts, address(patch));
-        most = on ? larger_whole(most, near) : most;
+        const integer entry = address(smaller_whole(begin + splat_whole(k), last));
+        most = larger_whole(most, gather_whole(near_counts, address(gather_whole(around, entry))));
     }
-    return most;
+    const whole before = load_whole(busy, i);
+    const whole was = instance == 0 ? one : before - (before >> one) * splat_whole(2);
+    store_whole(busy, i, (most > none ? one : none) + was * splat_whole(2));
 }
 
-/// Fills the rows of each vertex: from pairs with itself, with its triangles, with its edges.
+/// Fills the rows of each vertex of the surface: from pairs with itself, with its triangles, with
+/// its edges. In the order of the surface, so that vertices that are worked on together lie side by
+/// side, and have about as many pairs.
 /// anchors     [vertices] xyz: where pairs were found [m], w: how far the vertex may get [m]
 /// goals       [vertices] xyz: where inertia, or the scene, leads them [m]; w = 1/mass [1/kg]
 /// stiffness   [vertices] what a contact's is measured by [N/m]
-/// surface     [vertices] the number as a vertex of the surface, and one more; 0 inside a body
-/// triangle_begin, triangle_list   [surface vertices + 1], [entries] which triangles it has
+/// apexes      [items] the vertex of each
+/// triangle_begin, triangle_list   [items + 1], [entries] which triangles it has
 /// edge_begin, edge_list           likewise its edges
 /// triangles   [3 * triangles] column-major: their vertices
 /// edges       [2 * edges] likewise
-/// apexes      [surface vertices] the vertex of each
-/// patch_begin, patch_list         likewise the patches that it belongs to: all that its pairs are of
-/// near_counts [patches] how many patches are near to each
-/// vt_rows, vt_counts, vt_others   per surface vertex 2 * triangle + 1 where the pair pushes, else
+/// patches     [items] the patch of each, ascending; busy: of patches, as find_busy_patches leaves it
+/// vt_rows, vt_counts, vt_others   per item 2 * triangle + 1 where the pair pushes, else
 ///                                 2 * triangle (runtime/row_table.h)
-/// tv_rows ... per triangle surface vertices; ee_rows ... per edge edges, as doubled
+/// tv_rows ... per triangle items; ee_rows ... per edge edges, as doubled
 /// plane_rows, plane_counts, plane_needs, planes      written; see truncate.h
 /// rows, counts, needs, corner0 to 3, normals, weights, measures  written; see rows.h
 /// least       [vertices] written: the least room before its planes [m]; huge where there are no
@@ -264,12 +273,11 @@ WEFT_INLINE whole most_near(WEFT_GLOBAL const int* patch_list, WEFT_GLOBAL const
 /// nearest     [vertices] written: the least distance of its pairs since instance 0 [m]
 WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
                    WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const float* stiffness,
-                   WEFT_GLOBAL const int* surface, WEFT_GLOBAL const int* triangle_begin,
+                   WEFT_GLOBAL const int* apexes, WEFT_GLOBAL const int* triangle_begin,
                    WEFT_GLOBAL const int* triangle_list, WEFT_GLOBAL const int* edge_begin,
                    WEFT_GLOBAL const int* edge_list, WEFT_GLOBAL const int* triangles,
-                   WEFT_GLOBAL const int* edges, WEFT_GLOBAL const int* apexes,
-                   WEFT_GLOBAL const int* patch_begin, WEFT_GLOBAL const int* patch_list,
-                   WEFT_GLOBAL const int* near_counts, WEFT_GLOBAL const int* vt_rows,
+                   WEFT_GLOBAL const int* edges, WEFT_GLOBAL const int* patches,
+                   WEFT_GLOBAL const int* busy, WEFT_GLOBAL const int* vt_rows,
                    WEFT_GLOBAL const int* vt_counts, WEFT_GLOBAL const int* vt_others,
                    WEFT_GLOBAL const int* tv_rows, WEFT_GLOBAL const int* tv_counts,
                    WEFT_GLOBAL const int* tv_others, WEFT_GLOBAL const int* ee_rows,
@@ -283,42 +291,32 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
                    WEFT_GLOBAL float* least, WEFT_GLOBAL float* nearest, int vertex_count,
                    int triangle_count, int edge_count, float range, float slack, float factor,
                    int instance) {
+    if (!any_in_range(busy, patches[i.first], patches[i.first + i.count - 1])) return;
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
     contact_settings settings;
     settings.range = range;
     settings.slack = slack;
     settings.stiffness = factor;
-    const whole vertex = item_numbers(i);
-    const whole place = load_whole(surface, i);
-    const mask is_outside = place > none;
-    // Where a lane has nothing to read, it reads what its neighbour does: whatever lies elsewhere
-    // may be written meanwhile, by detection in another strip's next substep.
-    const int last = largest_whole(place);
-    const whole apex = is_outside ? place - one : splat_whole(last > 0 ? last - 1 : 0);
-    const whole first_patch = gather_whole(patch_begin, address(apex));
-    const whole end_patch = gather_whole(patch_begin, address(apex + one));
-    const whole near = most_near(patch_list, near_counts, first_patch,
-                                 is_outside ? end_patch - first_patch : none);
-    // Most rows are empty, and were so before.
-    const real was_free = load(least, i);
-    const whole had_some = was_free < splat(WEFT_NO_PLANE) ? one : none;
-    if (instance != 0 && largest_whole(larger_whole(near, had_some)) == 0) return;
-
-    const whole plane_start = load_whole(plane_rows, i);
-    const whole plane_room = load_whole(plane_rows, column(i, vertex_count, 1));
-    const whole start = load_whole(rows, i);
-    const whole room = load_whole(rows, column(i, vertex_count, 1));
-    const real farthest = out_of_reach(load4(anchors, i).w, settings);
+    const whole vertex = load_whole(apexes, i);
+    const integer own = address(vertex);
+    const integer second = address(vertex + splat_whole(vertex_count));
+    const whole may_have = gather_whole(busy, address(load_whole(patches, i)));
+    const mask has_pairs = may_have - (may_have >> one) * splat_whole(2) > none;
+    const whole plane_start = gather_whole(plane_rows, own);
+    const whole plane_room = gather_whole(plane_rows, second);
+    const whole start = gather_whole(rows, own);
+    const whole room = gather_whole(rows, second);
+    const real farthest = out_of_reach(gather4(anchors, own).w, settings);
     const real far = splat(WEFT_NO_PLANE);
-    const real free = load4(goals, i).w;
-    const mask moves = both(near > none, free > splat(0.0f));
-    const mask is_led = both(near > none, free <= splat(0.0f));
+    const real free = gather4(goals, own).w;
+    const mask moves = both(has_pairs, free > splat(0.0f));
+    const mask is_led = both(has_pairs, free <= splat(0.0f));
     contact_rows row = {none, none, is_led ? splat(0.0f) : far, far};
 
-    const whole own = last > 0 ? gather_whole(vt_counts, address(apex)) : none;
-    const whole own_count = moves ? own : none;
-    const whole own_start = gather_whole(vt_rows, address(apex));
+    const whole own_pairs = load_whole(vt_counts, i);
+    const whole own_count = moves ? own_pairs : none;
+    const whole own_start = load_whole(vt_rows, i);
     const int own_longest = largest_whole(own_count);
     for (int k = 0; k < own_longest; ++k) {
         const mask is_on = splat_whole(k) < own_count;
@@ -335,8 +333,8 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
                           corner0, corner1, corner2, corner3, normals, weights, measures);
     }
 
-    const whole first_triangle = gather_whole(triangle_begin, address(apex));
-    const whole end_triangle = gather_whole(triangle_begin, address(apex + one));
+    const whole first_triangle = load_whole(triangle_begin, i);
+    const whole end_triangle = load_whole(triangle_begin, column(i, 1, 1));
     const whole triangles_here = moves ? end_triangle - first_triangle : none;
     const int most_triangles = largest_whole(triangles_here);
     for (int n = 0; n < most_triangles; ++n) {
@@ -367,8 +365,8 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
         }
     }
 
-    const whole first_edge = gather_whole(edge_begin, address(apex));
-    const whole end_edge = gather_whole(edge_begin, address(apex + one));
+    const whole first_edge = load_whole(edge_begin, i);
+    const whole end_edge = load_whole(edge_begin, column(i, 1, 1));
     const whole edges_here = moves ? end_edge - first_edge : none;
     const int most_edges = largest_whole(edges_here);
     for (int n = 0; n < most_edges; ++n) {
@@ -401,14 +399,17 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
         }
     }
 
-    store_whole(plane_counts, i, smaller_whole(row.planes, plane_room));
-    store_whole(counts, i, smaller_whole(row.contacts, room));
-    store_whole(plane_needs, i,
-                instance == 0 ? row.planes : larger_whole(row.planes, load_whole(plane_needs, i)));
-    store_whole(needs, i,
-                instance == 0 ? row.contacts : larger_whole(row.contacts, load_whole(needs, i)));
-    store(least, i, row.least);
-    store(nearest, i, instance == 0 ? row.nearest : smaller(row.nearest, load(nearest, i)));
+    const mask all = one > none;
+    const int is_first = instance == 0;
+    const whole wanted_planes = is_first ? none : gather_whole(plane_needs, own);
+    const whole wanted = is_first ? none : gather_whole(needs, own);
+    const real was_nearest = is_first ? far : gather(nearest, own);
+    scatter_whole_where(all, plane_counts, own, smaller_whole(row.planes, plane_room));
+    scatter_whole_where(all, counts, own, smaller_whole(row.contacts, room));
+    scatter_whole_where(all, plane_needs, own, larger_whole(row.planes, wanted_planes));
+    scatter_whole_where(all, needs, own, larger_whole(row.contacts, wanted));
+    scatter_where(all, least, own, row.least);
+    scatter_where(all, nearest, own, smaller(row.nearest, was_nearest));
 }
 
 WEFT_KERNELS_END

@@ -5,6 +5,18 @@
 
 WEFT_KERNELS_BEGIN
 
+/// Where bounds overlap those of one other, as gather_bounds finds them.
+WEFT_INLINE mask overlap_bounds(real_bounds own, WEFT_GLOBAL const float4* low,
+                                WEFT_GLOBAL const float4* high, WEFT_GLOBAL const float4* slant_low,
+                                WEFT_GLOBAL const float4* slant_high, int other, int count) {
+    const mask on = overlaps(own.box, low[other], high[other]);
+    if (!any_item(on)) return on;
+    const mask sums = overlaps(own.sums, slant_low[other], slant_high[other]);
+    const mask differences =
+        overlaps(own.differences, slant_low[count + other], slant_high[count + other]);
+    return both(on, both(sums, differences));
+}
+
 WEFT_INLINE real4 splat4(float4 p) {
     real4 v = {splat(p.x), splat(p.y), splat(p.z), splat(p.w)};
     return v;
@@ -43,39 +55,93 @@ WEFT_INLINE whole is_smooth_by(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL cons
     return is_third ? are_smooth(between, a) * are_smooth(between, b) : splat_whole(1);
 }
 
-/// Whether two groups of patches are flat and quiet, and face the same way within 30 degrees.
-WEFT_INLINE int are_aligned(float4 a, float4 b) {
-    return a.w > 0.0f && b.w > 0.0f && a.x * b.x + a.y * b.y + a.z * b.z >= 0.8660f;
+/// Where two groups of patches are flat and quiet, and face the same way within 30 degrees.
+WEFT_INLINE mask are_aligned(real4 a, real4 b) {
+    const real zero = splat(0.0f);
+    return both(both(a.w > zero, b.w > zero), dot3(xyz(a), xyz(b)) >= splat(0.8660f));
 }
 
-/// Whether a group and another one, or itself, hang together and are so flat, with the one between
-/// them, that nothing of one can touch the other: all normals are within 60 degrees of one
-/// direction (30 of a patch, 15 of its group, half of 30 of both groups), and there is no slit.
+/// What a group hangs together with, gone through in ascending order.
+typedef struct {
+    whole group;
+    real4 tilt;
+    whole cursor, beside;  ///< where in the list; the group there
+    whole folds;           ///< 1 where it has to be looked at with the group asked for, else 0
+} sheet_walk;
+
 /// tilts   as tilt_groups leaves them
-/// begin, besides, vias   of groups, as of patches in find_near_patches
-WEFT_INLINE int are_one_sheet(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
-                              WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
-                              int group, int other) {
-    if (!are_aligned(tilts[group], tilts[other])) return 0;
-    int entry = begin[group];
-    while (besides[entry] < other) ++entry;
-    if (besides[entry] != other) return 0;
-    const float4 between = tilts[vias[entry]];
-    return are_aligned(between, tilts[group]) && are_aligned(between, tilts[other]);
+/// begin, besides   of groups, as of patches in find_near_patches
+WEFT_INLINE sheet_walk begin_walk(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
+                                  WEFT_GLOBAL const int* besides, whole group) {
+    const whole cursor = gather_whole(begin, address(group));
+    sheet_walk walk = {group, gather4(tilts, address(group)), cursor,
+                       gather_whole(besides, address(cursor)), splat_whole(1)};
+    return walk;
 }
 
-/// 1 for the items at hand whose patches have to be looked at, with those of a group.
-/// own           the group of each
-/// first, last   the first and the last of these
-WEFT_INLINE whole may_fold_onto(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const int* begin,
-                                WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
-                                whole own, int first, int last, int other) {
-    whole open = splat_whole(1);
-    for (int group = first; group <= last; ++group) {
-        if (!are_one_sheet(tilts, begin, besides, vias, group, other)) continue;
-        open = own == splat_whole(group) ? splat_whole(0) : open;
+/// Whether the group and another one, or itself, hang together and are so flat, with the one
+/// between them, that nothing of one can touch the other: all normals are within 60 degrees of one
+/// direction (30 of a patch, 15 of its group, half of 30 of both groups), and there is no slit.
+/// other   no less than in the calls before
+WEFT_INLINE sheet_walk walk_to(sheet_walk walk, WEFT_GLOBAL const float4* tilts,
+                               WEFT_GLOBAL const int* besides, WEFT_GLOBAL const int* vias,
+                               int other) {
+    const whole number = splat_whole(other);
+    while (any_item(walk.beside < number)) {
+        walk.cursor = walk.beside < number ? walk.cursor + splat_whole(1) : walk.cursor;
+        walk.beside = gather_whole(besides, address(walk.cursor));
     }
-    return open;
+    const mask hangs = walk.beside == number;
+    const whole via = gather_whole(vias, address(walk.cursor));
+    const real4 its = splat4(tilts[other]);
+    const real4 between = gather4(tilts, address(hangs ? via : walk.group));
+    const mask is_flat = both(are_aligned(walk.tilt, its),
+                              both(are_aligned(walk.tilt, between), are_aligned(its, between)));
+    walk.folds = both(hangs, is_flat) ? splat_whole(0) : splat_whole(1);
+    return walk;
+}
+
+/// For each group of patches whether any of its patches has to be looked at: 0 where it is one
+/// sheet with whatever its bounds overlap with (walk_to); else 1. Boxes of roots and blocks as in
+/// find_near_patches.
+/// low, high, slant_low, slant_high, tilts   [items] of groups, as enclose_boxes, enclose_slants and
+///         tilt_groups leave them
+/// beside_begin, besides, vias   of groups, as of patches in find_near_patches
+/// opens   [items] written
+/// margin  as in find_near_patches [m]
+WEFT_NARROW_KERNEL(find_open_groups, WEFT_GLOBAL const float4* root_low,
+                   WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
+                   WEFT_GLOBAL const float4* block_low, WEFT_GLOBAL const float4* block_high,
+                   WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* low,
+                   WEFT_GLOBAL const float4* high, WEFT_GLOBAL const float4* slant_low,
+                   WEFT_GLOBAL const float4* slant_high, WEFT_GLOBAL const float4* tilts,
+                   WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
+                   WEFT_GLOBAL const int* vias, WEFT_GLOBAL int* opens, int item_count,
+                   int root_count, float margin) {
+    const whole none = splat_whole(0);
+    const whole one = splat_whole(1);
+    const real_bounds bounds =
+        widened_bounds(gather_bounds(low, high, slant_low, slant_high, item_numbers(i), item_count),
+                       splat(margin));
+    const float_box all = around_all(bounds.box);
+    sheet_walk walk = begin_walk(tilts, beside_begin, besides, item_numbers(i));
+    whole open = walk.tilt.w > splat(0.0f) ? none : one;
+    for (int r = 0; r < root_count && any_item(open == none); ++r) {
+        if (!meets(all, root_low[r], root_high[r])) continue;
+        const int block_end = root_begin[r + 1];
+        for (int b = root_begin[r]; b < block_end; ++b) {
+            if (!meets(all, block_low[b], block_high[b])) continue;
+            const int end = block_begin[b + 1];
+            for (int g = block_begin[b]; g < end; ++g) {
+                const mask on = both(open == none, overlap_bounds(bounds, low, high, slant_low,
+                                                                  slant_high, g, item_count));
+                if (!any_item(on)) continue;
+                walk = walk_to(walk, tilts, besides, vias, g);
+                open = on ? walk.folds : open;
+            }
+        }
+    }
+    store_whole(opens, i, open);
 }
 
 /// For each patch those whose bounds nearly overlap with its own, itself too, ascending. Left out
@@ -83,7 +149,8 @@ WEFT_INLINE whole may_fold_onto(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL con
 ///   what it hangs together with (and itself), by a vertex or by one patch between, while all of
 ///       them are flat and quiet and face one way: normals are within 60 degrees of one direction,
 ///       so there is no fold yet, and none comes;
-///   what groups of patches say of theirs (are_one_sheet), so that most patches need no look;
+///   what groups of patches say of theirs (walk_to), so that most patches need no look, and
+///       those of groups that are not open none at all;
 ///   two patches that cannot move;  two of one body, where bodies do not touch themselves.
 /// Boxes are around boxes: roots (one per strip), blocks, groups, patches. begin of a level: where
 /// the children of each box begin in the next one.
@@ -91,7 +158,8 @@ WEFT_INLINE whole may_fold_onto(WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL con
 /// tilts, drifts [items] as tilt_patches says
 /// beside_begin  [items + 1] where the list of each begins in `besides`: those that it hangs together
 ///               with, ascending, and as its end a number that is larger than any; vias: by which
-/// group_of      [items] the group of each patch; group_tilts, group_beside_begin, group_besides,
+/// group_of      [items] the group of each patch; opens: of groups, as find_open_groups leaves them;
+///               group_tilts, group_beside_begin, group_besides,
 ///               group_vias: of groups, likewise
 /// bodies        [items]
 /// held          [items] 1: it cannot move
@@ -101,31 +169,37 @@ WEFT_NARROW_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
                    WEFT_GLOBAL const float4* root_high, WEFT_GLOBAL const int* root_begin,
                    WEFT_GLOBAL const float4* block_low, WEFT_GLOBAL const float4* block_high,
                    WEFT_GLOBAL const int* block_begin, WEFT_GLOBAL const float4* group_low,
-                   WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const int* group_begin,
+                   WEFT_GLOBAL const float4* group_high, WEFT_GLOBAL const float4* group_slant_low,
+                   WEFT_GLOBAL const float4* group_slant_high, WEFT_GLOBAL const int* group_begin,
                    WEFT_GLOBAL const float4* low, WEFT_GLOBAL const float4* high,
                    WEFT_GLOBAL const float4* slant_low, WEFT_GLOBAL const float4* slant_high,
                    WEFT_GLOBAL const float4* tilts, WEFT_GLOBAL const float4* drifts,
                    WEFT_GLOBAL const int* beside_begin, WEFT_GLOBAL const int* besides,
                    WEFT_GLOBAL const int* vias, WEFT_GLOBAL const int* group_of,
-                   WEFT_GLOBAL const float4* group_tilts, WEFT_GLOBAL const int* group_beside_begin,
-                   WEFT_GLOBAL const int* group_besides, WEFT_GLOBAL const int* group_vias,
-                   WEFT_GLOBAL const int* bodies, WEFT_GLOBAL const int* held,
-                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs,
-                   WEFT_GLOBAL int* others, int item_count, int root_count, float margin,
-                   int touch_self, int instance) {
+                   WEFT_GLOBAL const int* opens, WEFT_GLOBAL const float4* group_tilts,
+                   WEFT_GLOBAL const int* group_beside_begin, WEFT_GLOBAL const int* group_besides,
+                   WEFT_GLOBAL const int* group_vias, WEFT_GLOBAL const int* bodies,
+                   WEFT_GLOBAL const int* held, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL int* counts, WEFT_GLOBAL int* needs, WEFT_GLOBAL int* others,
+                   int item_count, int group_count, int root_count, float margin, int touch_self,
+                   int instance) {
+    open_rows row = open_rows_of(rows, i, item_count);
+    const whole own_group = load_whole(group_of, i);
+    const whole is_open = gather_whole(opens, address(own_group));
+    if (!any_item(is_open > splat_whole(0))) {
+        close_rows(row, counts, needs, i, instance);
+        return;
+    }
     const whole self = item_numbers(i);
     const real_bounds bounds = widened_bounds(
         gather_bounds(low, high, slant_low, slant_high, self, item_count), splat(margin));
     const float_box all = around_all(bounds.box);
     const real_leaning own = {load4(tilts, i), load4(drifts, i)};
-    const whole own_group = load_whole(group_of, i);
-    const int first_group = group_of[i.first];
-    const int last_group = group_of[i.first + i.count - 1];
+    sheet_walk walk = begin_walk(group_tilts, group_beside_begin, group_besides, own_group);
     const whole body = load_whole(bodies, i);
     const whole is_held = load_whole(held, i);
     whole cursor = load_whole(beside_begin, i);
     whole beside = gather_whole(besides, address(cursor));
-    open_rows row = open_rows_of(rows, i, item_count);
     for (int r = 0; r < root_count; ++r) {
         if (!meets(all, root_low[r], root_high[r])) continue;
         const int block_end = root_begin[r + 1];
@@ -133,17 +207,18 @@ WEFT_NARROW_KERNEL(find_near_patches, WEFT_GLOBAL const float4* root_low,
             if (!meets(all, block_low[b], block_high[b])) continue;
             const int group_end = block_begin[b + 1];
             for (int g = block_begin[b]; g < group_end; ++g) {
-                if (!meets(all, group_low[g], group_high[g])) continue;
-                const whole open = may_fold_onto(group_tilts, group_beside_begin, group_besides,
-                                                 group_vias, own_group, first_group, last_group, g);
-                if (!any_item(open > splat_whole(0))) continue;
+                const mask meet =
+                    both(is_open > splat_whole(0),
+                         overlap_bounds(bounds, group_low, group_high, group_slant_low,
+                                        group_slant_high, g, group_count));
+                if (!any_item(meet)) continue;
+                walk = walk_to(walk, group_tilts, group_besides, group_vias, g);
+                const mask open = both(meet, walk.folds > splat_whole(0));
+                if (!any_item(open)) continue;
                 const int end = group_begin[g + 1];
                 for (int p = group_begin[g]; p < end; ++p) {
-                    mask on = both(open > splat_whole(0), overlaps(bounds.box, low[p], high[p]));
-                    if (!any_item(on)) continue;
-                    on = both(on, overlaps(bounds.sums, slant_low[p], slant_high[p]));
-                    on = both(on, overlaps(bounds.differences, slant_low[item_count + p],
-                                           slant_high[item_count + p]));
+                    mask on = both(open, overlap_bounds(bounds, low, high, slant_low, slant_high, p,
+                                                        item_count));
                     if (!any_item(on)) continue;
                     if (touch_self == 0) on = both(on, body != splat_whole(bodies[p]));
                     if (held[p] != 0) on = both(on, is_held == splat_whole(0));

@@ -39,8 +39,8 @@ WEFT_INLINE mask is_pair(real square, whole pushes, pair_ranges r) {
 /// stale.)
 WEFT_INLINE int has_work(WEFT_GLOBAL const int* kept_counts, WEFT_GLOBAL const int* stale,
                          int first_patch, int last_patch, int instance) {
-    return instance == 0 || any_of_patches(kept_counts, first_patch, last_patch) ||
-           any_of_patches(stale, first_patch, last_patch);
+    return instance == 0 || any_in_range(kept_counts, first_patch, last_patch) ||
+           any_in_range(stale, first_patch, last_patch);
 }
 
 /// The same for items by themselves.
@@ -147,7 +147,7 @@ WEFT_NARROW_KERNEL(find_triangles, WEFT_GLOBAL const float4* points, WEFT_GLOBAL
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
         const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
         open_rows row = emptied_rows(rows, counts, anew, i, item_count);
-        if (any_of_patches(near_counts, first_patch, last_patch)) {
+        if (any_in_range(near_counts, first_patch, last_patch)) {
             const real4 x = load4(points, i);
             const whole self = item_numbers(i);
             const whole start = load_whole(candidate_rows, i);
@@ -183,7 +183,7 @@ WEFT_NARROW_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL 
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
         const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
         open_rows row = emptied_rows(rows, counts, anew, i, item_count);
-        if (any_of_patches(near_counts, first_patch, last_patch)) {
+        if (any_in_range(near_counts, first_patch, last_patch)) {
             const triangle_corners k = gather_corners(corners, item_numbers(i), item_count);
             const placed triangle = gather_triangle(points, k, splat(0.5f * halo));
             const whole start = load_whole(candidate_rows, i);
@@ -230,7 +230,7 @@ WEFT_NARROW_KERNEL(find_edges, WEFT_GLOBAL const float4* points, WEFT_GLOBAL con
     if (has_work(kept_counts, stale, first_patch, last_patch, instance)) {
         const whole anew = is_at_work(kept_counts, stale, patches, i, instance);
         open_rows row = emptied_rows(rows, counts, anew, i, item_count);
-        if (any_of_patches(near_counts, first_patch, last_patch)) {
+        if (any_in_range(near_counts, first_patch, last_patch)) {
             const real margin = splat(0.5f * halo);
             const whole self = item_numbers(i);
             const placed own =

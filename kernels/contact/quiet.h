@@ -1,7 +1,7 @@
 #ifndef WEFT_KERNELS_CONTACT_QUIET_H
 #define WEFT_KERNELS_CONTACT_QUIET_H
 
-#include "kernels/contact/boxes.h"
+#include "kernels/contact/tilts.h"
 
 WEFT_KERNELS_BEGIN
 

@@ -4,6 +4,7 @@
 
 #include "kernels/contact/near.h"
 #include "kernels/contact/pairs.h"
+#include "kernels/contact/tilts.h"
 
 namespace weft {
 
@@ -65,10 +66,13 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
       tilts_("contact.tilts", size_of(s_.patches)),
       drifts_("contact.drifts", size_of(s_.patches)),
       group_tilts_("contact.groups.tilts", size_of(s_.groups.items)),
+      group_opens_("contact.groups.opens", size_of(s_.groups.items)),
       patch_low_("contact.patches.low", size_of(s_.patches)),
       patch_high_("contact.patches.high", size_of(s_.patches)),
       slant_low_("contact.patches.slant_low", 2 * size_of(s_.patches)),
       slant_high_("contact.patches.slant_high", 2 * size_of(s_.patches)),
+      group_slant_low_("contact.groups.slant_low", 2 * size_of(s_.groups.items)),
+      group_slant_high_("contact.groups.slant_high", 2 * size_of(s_.groups.items)),
       triangle_low_("contact.triangles.low", size_of(s_.triangles.items)),
       triangle_high_("contact.triangles.high", size_of(s_.triangles.items)),
       edge_low_("contact.edges.low", size_of(s_.edges.items)),
@@ -105,10 +109,13 @@ void ContactPairs::make_boxes_body(int kind) {
                    patch_low_, patch_high_, slant_low_, slant_high_, margin,
                    surface_.patch_count()),
          launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, foresees_, s_.face_begin,
-                   s_.face_corners, patch_high_, s_.quiet, tilts_, drifts_,
-                   surface_.faces.begin.back()),
+                   s_.face_corners, s_.rims.begin, s_.rims.items, patch_high_, s_.quiet, tilts_,
+                   drifts_, surface_.faces.begin.back()),
          launch_on(kernels::tilt_groups, s_.groups.items, s_.groups.children, tilts_, group_tilts_),
          candidates_.enclose(), unite(s_.groups, patch_low_, patch_high_),
+         launch_on(kernels::enclose_slants, s_.groups.items, s_.groups.children, slant_low_,
+                   slant_high_, group_slant_low_, group_slant_high_, surface_.patch_count(),
+                   s_.groups.items.count()),
          unite(s_.blocks, s_.groups.low, s_.groups.high),
          unite(s_.roots, s_.blocks.low, s_.blocks.high)}};
 }
@@ -119,13 +126,19 @@ void ContactPairs::make_near_body(int kind) {
     near_task_ = {
         "near",
         kind,
-        {launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
+        {launch_on(kernels::find_open_groups, s_.groups.items, s_.roots.low, s_.roots.high,
                    s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
-                   s_.groups.low, s_.groups.high, s_.groups.children, patch_low_, patch_high_,
-                   slant_low_, slant_high_, tilts_, drifts_, s_.beside_begin, s_.besides, s_.vias,
-                   s_.group_of, group_tilts_, s_.group_beside_begin, s_.group_besides,
-                   s_.group_vias, s_.bodies, s_.held, table.rows(), table.counts(), table.needs(),
-                   near_.others, surface_.patch_count(), surface_.strip_count(),
+                   s_.groups.low, s_.groups.high, group_slant_low_, group_slant_high_, group_tilts_,
+                   s_.group_beside_begin, s_.group_besides, s_.group_vias, group_opens_,
+                   s_.groups.items.count(), surface_.strip_count(), candidates_.margin()),
+         launch_on(kernels::find_near_patches, s_.patches, s_.roots.low, s_.roots.high,
+                   s_.roots.children, s_.blocks.low, s_.blocks.high, s_.blocks.children,
+                   s_.groups.low, s_.groups.high, group_slant_low_, group_slant_high_,
+                   s_.groups.children, patch_low_, patch_high_, slant_low_, slant_high_, tilts_,
+                   drifts_, s_.beside_begin, s_.besides, s_.vias, s_.group_of, group_opens_,
+                   group_tilts_, s_.group_beside_begin, s_.group_besides, s_.group_vias, s_.bodies,
+                   s_.held, table.rows(), table.counts(), table.needs(), near_.others,
+                   surface_.patch_count(), s_.groups.items.count(), surface_.strip_count(),
                    candidates_.margin(), settings_.self ? 1 : 0, kInstance),
          candidates_.check(near_, {patch_low_, patch_high_, slant_low_, slant_high_}),
          launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
@@ -198,10 +211,14 @@ void ContactPairs::add_boxes(Step& step, const Part& part, RegionId region) {
     updates(adding, group_tilts_, s_.groups.items, part);
     updates(adding, patch_low_, s_.patches, part);
     updates(adding, patch_high_, s_.patches, part);
-    for (Buffer<float4>* slants : {&slant_low_, &slant_high_}) {
-        const int all = surface_.patch_count();
-        adding.updates(*slants, first_patch, last_patch)
-            .updates(*slants, all + first_patch, all + last_patch);
+    const auto updates_halves = [&](Buffer<float4>& slants, const Items& items) {
+        const auto [first, last] = range(items, part.begin, part.end);
+        adding.updates(slants, first, last)
+            .updates(slants, items.count() + first, items.count() + last);
+    };
+    for (Buffer<float4>* slants : {&slant_low_, &slant_high_}) updates_halves(*slants, s_.patches);
+    for (Buffer<float4>* slants : {&group_slant_low_, &group_slant_high_}) {
+        updates_halves(*slants, s_.groups.items);
     }
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
         updates(adding, level->low, level->items, part);
@@ -219,12 +236,15 @@ void ContactPairs::add_near(Step& step, const Part& part, RegionId region) {
     reads_all(adding, patch_low_, s_.patches);
     reads_all(adding, patch_high_, s_.patches);
     adding.reads(slant_low_, 0, 2 * surface_.patch_count())
-        .reads(slant_high_, 0, 2 * surface_.patch_count());
+        .reads(slant_high_, 0, 2 * surface_.patch_count())
+        .reads(group_slant_low_, 0, 2 * s_.groups.items.count())
+        .reads(group_slant_high_, 0, 2 * s_.groups.items.count());
     for (SurfaceBuffers::Level* level : {&s_.groups, &s_.blocks, &s_.roots}) {
         reads_all(adding, level->low, level->items);
         reads_all(adding, level->high, level->items);
     }
     adding.reads(points_, first, last);
+    updates(adding, group_opens_, s_.groups.items, part);
     fills(adding, near_, s_.patches, part);
     const auto [first_patch, last_patch] = range(s_.patches, part.begin, part.end);
     candidates_.add_check_accesses(adding, first_patch, last_patch);

@@ -83,7 +83,9 @@ private:
     Segments strips_;
     Buffer<int> foresees_{"contact.foresees", 1};
     Buffer<float4> points_, tilts_, drifts_, group_tilts_;
+    Buffer<int> group_opens_;
     Buffer<float4> patch_low_, patch_high_, slant_low_, slant_high_;
+    Buffer<float4> group_slant_low_, group_slant_high_;
     Buffer<float4> triangle_low_, triangle_high_, edge_low_, edge_high_;
     Table near_, vt_, tv_, ee_;
     PairCandidates candidates_;

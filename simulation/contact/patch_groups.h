@@ -7,18 +7,19 @@
 namespace weft {
 
 /// Some patches of a strip that follow each other. Where a group and what it hangs together with
-/// are flat, nobody has to look at their patches (kernels/contact/near.h). That is so for groups
-/// that are one piece of surface, where no border leaves room for a slit between them.
+/// are flat, nobody has to look at their patches (kernels/contact/near.h).
 struct PatchGroups {
     std::vector<int> of_patch;  ///< [patches]
     /// Groups that a group hangs together with, itself too: with a vertex in common, or with one
-    /// group between that is not at a border; and one of the two is not, either. Ascending. None of
-    /// them is several pieces.
+    /// group between. All of these are one piece of surface each, and there is no slit between
+    /// them: of the two one is not at a border, and what is between is not, either; or the border
+    /// of all of them is about straight, or turns outward (leave_no_slit). Ascending.
     Lists beside;
     std::vector<int> between;  ///< [entries of beside] the group between; one of the two if none is
 };
 
-/// begin: [groups + 1] the patches of each
+/// surface  up to its turns
+/// begin    [groups + 1] the patches of each
 PatchGroups find_groups(const Surface& surface, const std::vector<int>& begin);
 
 }  // namespace weft

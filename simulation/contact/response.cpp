@@ -93,27 +93,19 @@ std::vector<float> quiet_of_vertices(const Surface& surface, const Buffer<float>
 
 }  // namespace
 
-ContactResponse::Incidence::Incidence(const Surface& s, int vertex_count)
-    : surface("contact.surface", static_cast<std::size_t>(vertex_count)),
-      apexes("contact.apexes", s.vertices.size()),
+ContactResponse::Incidence::Incidence(const Surface& s)
+    : apexes("contact.apexes", s.vertices.size()),
       triangle_begin("contact.triangle_begin", s.triangles_at.begin.size()),
       triangle_list("contact.triangle_list", s.triangles_at.items.size()),
       edge_begin("contact.edge_begin", s.edges_at.begin.size()),
       edge_list("contact.edge_list", s.edges_at.items.size()),
       triangles("contact.triangles", 3 * s.triangles.size()),
-      edges("contact.edges", 2 * s.edges.size()),
-      patch_begin("contact.patch_begin", s.patches_at.begin.size()),
-      patch_list("contact.patch_list", s.patches_at.items.size()) {
-    for (std::size_t v = 0; v < s.vertices.size(); ++v) {
-        surface[static_cast<std::size_t>(s.vertices[v])] = static_cast<int>(v) + 1;
-    }
+      edges("contact.edges", 2 * s.edges.size()) {
     copy(s.vertices, apexes);
     copy(s.triangles_at.begin, triangle_begin);
     copy(s.triangles_at.items, triangle_list);
     copy(s.edges_at.begin, edge_begin);
     copy(s.edges_at.items, edge_list);
-    copy(s.patches_at.begin, patch_begin);
-    copy(s.patches_at.items, patch_list);
     fill_columns(s.triangles, s, triangles);
     fill_columns(s.edges, s, edges);
 }
@@ -139,7 +131,8 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       motion_(model, pairs_.surface(), model.scene.contact->thickness,
               2.0 * double{kMargin} * model.scene.contact->thickness, pairs_.foresees()),
       quiet_("contact.quiet_vertices", model.positions->count()),
-      incidence_(pairs_.surface(), model.vertex_count()),
+      incidence_(pairs_.surface()),
+      busy_("contact.busy", pairs_.buffers().bodies.count()),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
       planes_table_("contact.planes", model.vertices(), first_room(model, sizeof(float4))),
       contacts_("contact.contacts", model.vertices(), first_room(model, 5 * sizeof(float4))),
@@ -160,6 +153,9 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       cut_ways_("contact.cut_ways", model.positions->count()),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), sticking_.get(), fill_kind_ + 1) {
+    // Inside of bodies there is nothing to be filled.
+    std::ranges::fill(least_.span(), WEFT_NO_PLANE);
+    std::ranges::fill(nearest_.span(), WEFT_NO_PLANE);
     copy(contact_stiffness(model), stiffness_);
     copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
     make_fill();
@@ -170,28 +166,33 @@ void ContactResponse::make_fill() {
     auto& vt = pairs_.vt();
     auto& tv = pairs_.tv();
     auto& ee = pairs_.ee();
+    SurfaceBuffers& surface = pairs_.buffers();
     fill_ = {
         "contacts",
         fill_kind_,
-        {launch(kernels::fill_contacts, model_.vertices(), anchors_, goals_, stiffness_,
-                incidence_.surface, incidence_.triangle_begin, incidence_.triangle_list,
+        {launch(kernels::find_busy_patches, surface.patches.segments,
+                static_cast<Buffer<int>&>(surface.around.begin),
+                static_cast<Buffer<int>&>(surface.around.items), pairs_.near().table.counts(),
+                busy_, kInstance),
+         launch(kernels::fill_contacts, surface.vertices.items.segments, anchors_, goals_,
+                stiffness_, incidence_.apexes, incidence_.triangle_begin, incidence_.triangle_list,
                 incidence_.edge_begin, incidence_.edge_list, incidence_.triangles, incidence_.edges,
-                incidence_.apexes, incidence_.patch_begin, incidence_.patch_list,
-                pairs_.near().table.counts(), vt.table.rows(), vt.table.counts(), vt.others,
-                tv.table.rows(), tv.table.counts(), tv.others, ee.table.rows(), ee.table.counts(),
-                ee.others, planes_table_.rows(), planes_table_.counts(), planes_table_.needs(),
-                planes_, contacts_.rows(), contacts_.counts(), contacts_.needs(), corner0_,
-                corner1_, corner2_, corner3_, normals_, weights_, measures_, least_, nearest_,
-                model_.vertex_count(), pairs_.surface().triangle_count(),
-                pairs_.surface().edge_count(), range_, kSoftSlack * floor_, factor, kInstance),
+                static_cast<Buffer<int>&>(surface.vertices.patches), busy_, vt.table.rows(),
+                vt.table.counts(), vt.others, tv.table.rows(), tv.table.counts(), tv.others,
+                ee.table.rows(), ee.table.counts(), ee.others, planes_table_.rows(),
+                planes_table_.counts(), planes_table_.needs(), planes_, contacts_.rows(),
+                contacts_.counts(), contacts_.needs(), corner0_, corner1_, corner2_, corner3_,
+                normals_, weights_, measures_, least_, nearest_, model_.vertex_count(),
+                pairs_.surface().triangle_count(), pairs_.surface().edge_count(), range_,
+                kSoftSlack * floor_, factor, kInstance),
          snapshot(*model_.positions, 0), snapshot(*model_.positions, 1),
-         launch(kernels::find_strays, pairs_.buffers().patches.segments, pairs_.patch_low(),
-                pairs_.patch_high(), static_cast<Buffer<int>&>(pairs_.buffers().bodies),
-                motion_.carried(), motion_.chunk_of(), motion_.fences(), motion_.strays(),
-                motion_.body_count(), motion_.chunk_count(), kInstance)}};
+         launch(kernels::find_strays, surface.patches.segments, pairs_.patch_low(),
+                pairs_.patch_high(), static_cast<Buffer<int>&>(surface.bodies), motion_.carried(),
+                motion_.chunk_of(), motion_.fences(), motion_.strays(), motion_.body_count(),
+                motion_.chunk_count(), kInstance)}};
     if (sticking_) sticking_->add_recall(fill_.launches);
     if (!model_.scene.contact->planes) return;
-    fill_.launches.insert(fill_.launches.begin() + 1,
+    fill_.launches.insert(fill_.launches.begin() + 2,
                           truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_));
     ++showing_;
 }
@@ -274,7 +275,8 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     const std::pair own(patches.item(region.begin), patches.item(region.end));
     task.reads(pairs_.patch_low(), own.first, own.second)
         .reads(pairs_.patch_high(), own.first, own.second)
-        .updates(motion_.strays(), own.first, own.second);
+        .updates(motion_.strays(), own.first, own.second)
+        .updates(busy_, own.first, own.second);
 }
 
 void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region) {

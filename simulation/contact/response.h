@@ -108,13 +108,11 @@ public:
 private:
     /// The surface as rows of contacts want it, in the model's vertices.
     struct Incidence {
-        explicit Incidence(const Surface& surface, int vertex_count);
-        Buffer<int> surface;  ///< [vertices] number as a vertex of the surface + 1, or 0
-        Buffer<int> apexes;   ///< [surface vertices] the other way
+        explicit Incidence(const Surface& surface);
+        Buffer<int> apexes;  ///< [surface vertices] the model's
         Buffer<int> triangle_begin, triangle_list, edge_begin, edge_list;
         Buffer<int> triangles;  ///< [3 * triangles] column-major
         Buffer<int> edges;      ///< [2 * edges] likewise
-        Buffer<int> patch_begin, patch_list;
     };
     ContactResponse(Model& model, int first_kind);
     void make_fill();
@@ -138,6 +136,7 @@ private:
     CommonMotion motion_;
     Buffer<float> quiet_;  ///< [vertices] how far each may get before a triangle could turn over
     Incidence incidence_;
+    Buffer<int> busy_;  ///< [patches] kernels/contact/fill.h
     int fill_kind_;
     RowTable planes_table_, contacts_;
     Buffer<float4>& planes_;
@@ -150,7 +149,7 @@ private:
     Buffer<float> cut_ways_;
     Buffer<float4> snapshots_;
     TaskBody fill_;
-    std::size_t showing_ = 1;  ///< where its launches show the start
+    std::size_t showing_ = 2;  ///< where its launches show the start
     ContactEnergy energy_;
 };
 

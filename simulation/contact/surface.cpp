@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <tuple>
+
+#include "simulation/contact/notches.h"
+#include "simulation/contact/patch_groups.h"
 
 namespace weft {
 
@@ -50,6 +52,14 @@ void bisect(std::span<int> vertices, const std::vector<Vec3>& rest) {
     bisect(vertices.subspan(static_cast<std::size_t>(half)), rest);
 }
 
+/// A list more: the items, each once, ascending.
+void add_set(Lists& lists, std::vector<int> items) {
+    std::ranges::sort(items);
+    items.erase(std::ranges::unique(items).begin(), items.end());
+    lists.items.insert(lists.items.end(), items.begin(), items.end());
+    lists.close();
+}
+
 class Builder {
 public:
     Builder(const SurfaceMesh& mesh, const Strips& strips)
@@ -66,8 +76,10 @@ public:
         find_incidence();
         find_shared_features();
         find_faces();
+        find_rims();
         find_hulls();
         find_patches_at();
+        add_turns();
         find_beside();
         mark_held();
         return std::move(s_);
@@ -278,6 +290,17 @@ private:
         }
     }
 
+    void find_rims() {
+        for (std::size_t p = 0; p < s_.patch_body.size(); ++p) {
+            std::vector<int> rim;
+            for (const int t : s_.faces[static_cast<int>(p)]) {
+                const Triangle& x = s_.triangles[static_cast<std::size_t>(t)];
+                rim.insert(rim.end(), x.begin(), x.end());
+            }
+            add_set(s_.rims, std::move(rim));
+        }
+    }
+
     void find_hulls() {
         for (std::size_t p = 0; p < s_.patch_body.size(); ++p) {
             std::vector<int> hull;
@@ -290,10 +313,7 @@ private:
                 const auto& x = s_.edges[static_cast<std::size_t>(e)];
                 hull.insert(hull.end(), x.begin(), x.end());
             }
-            std::ranges::sort(hull);
-            hull.erase(std::ranges::unique(hull).begin(), hull.end());
-            s_.hulls.items.insert(s_.hulls.items.end(), hull.begin(), hull.end());
-            s_.hulls.close();
+            add_set(s_.hulls, std::move(hull));
         }
     }
 
@@ -303,51 +323,32 @@ private:
             for (const int v : s_.hulls[p]) at[static_cast<std::size_t>(v)].push_back(p);
         }
         s_.patches_at = flattened(at);
-    }
-
-    /// Patches with a vertex in common, itself too, ascending.
-    std::vector<std::vector<int>> touching() const {
-        std::vector<std::vector<int>> touching;
-        for (int p = 0; p < s_.patch_count(); ++p) {
-            std::vector<int>& others = touching.emplace_back();
-            for (const int v : s_.hulls[p]) {
-                const auto row = s_.patches_at[v];
-                others.insert(others.end(), row.begin(), row.end());
+        for (std::size_t p = 0; p < s_.patch_body.size(); ++p) {
+            std::vector<int> around;
+            for (int v = s_.patch_vertices[p]; v < s_.patch_vertices[p + 1]; ++v) {
+                const auto here = s_.patches_at[v];
+                around.insert(around.end(), here.begin(), here.end());
             }
-            std::ranges::sort(others);
-            others.erase(std::ranges::unique(others).begin(), others.end());
+            add_set(s_.around, std::move(around));
         }
-        return touching;
     }
 
-    /// Whether one of the patch's faces has an edge that no other triangle has, or many.
-    bool is_at_border(int patch) const {
-        return std::ranges::any_of(s_.faces[patch], [&](int t) {
-            return std::ranges::any_of(s_.beyond[static_cast<std::size_t>(t)],
-                                       [](int vertex) { return vertex < 0; });
-        });
+    void add_turns() {
+        const std::vector<double> notches = border_notches(s_, mesh_.rest);
+        for (int p = 0; p < s_.patch_count(); ++p) {
+            double sum = 0.0;
+            for (const int v : s_.rims[p]) sum += notches[static_cast<std::size_t>(v)];
+            s_.turns.push_back(sum);
+        }
     }
 
+    /// As of groups of one patch each.
     void find_beside() {
-        const auto touching = this->touching();
-        std::vector<char> inside;
-        for (int p = 0; p < s_.patch_count(); ++p) inside.push_back(!is_at_border(p));
-        const auto is_inside = [&](int p) { return inside[static_cast<std::size_t>(p)] != 0; };
-        for (int p = 0; p < s_.patch_count(); ++p) {
-            std::map<int, int> between;
-            for (const int q : touching[static_cast<std::size_t>(p)]) between[q] = std::min(p, q);
-            for (const int via : touching[static_cast<std::size_t>(p)]) {
-                if (!is_inside(via)) continue;
-                for (const int q : touching[static_cast<std::size_t>(via)]) {
-                    if (is_inside(p) || is_inside(q)) between.try_emplace(q, via);
-                }
-            }
-            for (const auto& [q, via] : between) {
-                s_.beside.items.push_back(q);
-                s_.between.push_back(via);
-            }
-            s_.beside.close();
-        }
+        std::vector<int> each(static_cast<std::size_t>(s_.patch_count()) + 1);
+        std::iota(each.begin(), each.end(), 0);
+        PatchGroups patches = find_groups(s_, each);
+        s_.beside = std::move(patches.beside);
+        s_.between = std::move(patches.between);
     }
 
     void mark_held() {

@@ -51,19 +51,23 @@ struct Surface {
     std::vector<int> patch_vertices, patch_triangles, patch_edges;
     std::vector<int> patch_body;   ///< [patches]
     std::vector<char> patch_held;  ///< [patches] whether nothing of it can be moved
-    /// Patches that a patch hangs together with, itself too: with a vertex in common; or with one
-    /// patch between that is not at a border, and one of the two is not, either: so there is no
-    /// slit between them. Ascending.
+    /// By how much the border turns inward at the vertices of each patch's faces, all together
+    /// [rad] (notches.h).
+    std::vector<double> turns;  ///< [patches]
+    /// Patches that a patch hangs together with, itself too, where there is no slit between them:
+    /// as PatchGroups::beside.
     Lists beside;
     std::vector<int> between;  ///< [entries of beside] the patch between; one of the two if none is
     /// Of a patch: its triangles, and one each of the vertices and edges that are in none of them:
     /// so where all faces are flat, all of it is.
     Lists faces;
+    Lists rims;                      ///< the vertices of these faces, each once, ascending
     Lists hulls;                     ///< all vertices of a patch's triangles and its own, ascending
     std::vector<int> strip_patches;  ///< [strips + 1] the patches of a strip
 
     Lists triangles_at;  ///< of a vertex, ascending
     Lists edges_at;      ///< likewise
+    Lists around;        ///< the patches that a patch' vertices belong to, ascending
     Lists patches_at;    ///< those in whose hulls it is, ascending
     Lists ring;          ///< the vertices that share an edge with a vertex, ascending
     /// [triangles] beyond the edge that is opposite to a corner: the vertex of the other triangle

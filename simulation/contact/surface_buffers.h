@@ -57,7 +57,9 @@ struct SurfaceBuffers {
     Items patches;
     Ints face_begin;      ///< [patches + 1] Surface::faces
     Ints face_corners;    ///< [3 * faces] the model's vertices
-    ListsOnDevice hulls;  ///< the model's vertices
+    ListsOnDevice rims;   ///< the model's vertices
+    ListsOnDevice hulls;  ///< likewise
+    ListsOnDevice around;
     /// Surface::beside; each list ends with a number that is larger than any, and `vias` has which
     /// patch is between.
     Ints beside_begin, besides, vias;

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "kernels/contact/near.h"
+#include "kernels/contact/tilts.h"
 #include "tests/kernels/contact_case_parts.h"
 
 namespace weft::test {
@@ -35,6 +36,16 @@ void enclose_boxes_case(KernelCase& c) {
         launch(kernels::enclose_boxes, c.segments, begin, children.low, children.high, low, high);
 }
 
+void enclose_slants_case(KernelCase& c) {
+    auto& begin = add_begins(c, "begin", c.items, 0, 8);
+    const int children = begin[at(c.items)] + 1;
+    Boxes slants(c, "slants", 2 * children, 0.3f);
+    auto& low = c.add<float4>("low", 2 * c.items);
+    auto& high = c.add<float4>("high", 2 * c.items);
+    c.launch = launch(kernels::enclose_slants, c.segments, begin, slants.low, slants.high, low,
+                      high, children, c.items);
+}
+
 /// Triangles that face up, more or less; in degenerate cases all ways, and collapsed.
 void tilt_patches_case(KernelCase& c) {
     auto& anchors = add_points(c, "anchors", 30);
@@ -43,7 +54,11 @@ void tilt_patches_case(KernelCase& c) {
         anchors[at(p)] = {0.1f * static_cast<float>(p % 6), c.random.real(0.0f, 0.05f),
                           0.1f * static_cast<float>(p / 6), c.random.real(0.0f, 0.04f)};
     }
-    auto& begin = add_begins(c, "begin", c.items, 1, 6);
+    // Some have more than what is kept of a patch.
+    const bool has_many = c.random.integer(0, 2) == 0;
+    auto& begin = add_begins(c, "begin", c.items, 1, has_many ? 2 * WEFT_KEPT : 6);
+    auto& rim_begin = add_begins(c, "rim_begin", c.items, 0, has_many ? 2 * WEFT_KEPT : 8);
+    auto& rims = add_numbers(c, "rims", rim_begin[at(c.items)] + 1, 30);
     const int faces = begin[at(c.items)];
     auto& corners = c.add<int>("corners", 3 * faces);
     for (int f = 0; f < faces; ++f) {
@@ -65,7 +80,7 @@ void tilt_patches_case(KernelCase& c) {
     auto& tilts = c.add<float4>("tilts", c.items);
     auto& drifts = c.add<float4>("drifts", c.items);
     c.launch = launch(kernels::tilt_patches, c.segments, anchors, goals, foresees, begin, corners,
-                      boxes.high, quiet, tilts, drifts, faces);
+                      rim_begin, rims, boxes.high, quiet, tilts, drifts, faces);
 }
 
 void enclose_primitives_case(KernelCase& c) {
@@ -128,10 +143,24 @@ void tilt_groups_case(KernelCase& c) {
     c.launch = launch(kernels::tilt_groups, c.segments, begin, patch_tilts, tilts);
 }
 
+void open_groups_case(KernelCase& c) {
+    Boxes boxes(c, "boxes", c.items, 0.3f);
+    Level blocks(c, "blocks", c.items, boxes);
+    Level roots(c, "roots", blocks.count, blocks.boxes);
+    Boxes slants(c, "slants", 2 * c.items, 2.0f);
+    GroupsBeside beside(c, c.items);
+    auto& opens = c.add<int>("opens", c.items);
+    c.launch = launch(kernels::find_open_groups, c.segments, roots.boxes.low, roots.boxes.high,
+                      roots.begin, blocks.boxes.low, blocks.boxes.high, blocks.begin, boxes.low,
+                      boxes.high, slants.low, slants.high, beside.tilts, beside.begin,
+                      beside.besides, beside.vias, opens, c.items, roots.count, 0.1f);
+}
+
 void near_case(KernelCase& c) {
     Boxes boxes(c, "boxes", c.items, 0.3f);
     Boxes slants(c, "slants", 2 * c.items, 2.0f);
     Level groups(c, "groups", c.items, boxes);
+    Boxes group_slants(c, "groups.slants", 2 * groups.count, 2.0f);
     Level blocks(c, "blocks", groups.count, groups.boxes);
     Level roots(c, "roots", blocks.count, blocks.boxes);
     auto& tilts = c.add<float4>("tilts", c.items);
@@ -153,25 +182,28 @@ void near_case(KernelCase& c) {
     for (int g = 0; g < groups.count; ++g) {
         for (int p = groups.begin[at(g)]; p < groups.begin[at(g + 1)]; ++p) group_of[at(p)] = g;
     }
+    auto& opens = add_numbers(c, "opens", groups.count, 2);
     auto& bodies = add_numbers(c, "bodies", c.items, 3);
     auto& held = add_numbers(c, "held", c.items, 2);
     Table table(c, "near", c.items, 3);
-    c.launch = launch(
-        kernels::find_near_patches, c.segments, roots.boxes.low, roots.boxes.high, roots.begin,
-        blocks.boxes.low, blocks.boxes.high, blocks.begin, groups.boxes.low, groups.boxes.high,
-        groups.begin, boxes.low, boxes.high, slants.low, slants.high, tilts, drifts, begin, beside,
-        vias, group_of, beside_groups.tilts, beside_groups.begin, beside_groups.besides,
-        beside_groups.vias, bodies, held, table.rows, table.counts, table.needs, table.others,
-        c.items, roots.count, 0.1f, c.flavour == Flavour::kRandom ? 1 : 0, kInstance);
+    c.launch = launch(kernels::find_near_patches, c.segments, roots.boxes.low, roots.boxes.high,
+                      roots.begin, blocks.boxes.low, blocks.boxes.high, blocks.begin,
+                      groups.boxes.low, groups.boxes.high, group_slants.low, group_slants.high,
+                      groups.begin, boxes.low, boxes.high, slants.low, slants.high, tilts, drifts,
+                      begin, beside, vias, group_of, opens, beside_groups.tilts,
+                      beside_groups.begin, beside_groups.besides, beside_groups.vias, bodies, held,
+                      table.rows, table.counts, table.needs, table.others, c.items, groups.count,
+                      roots.count, 0.1f, c.flavour == Flavour::kRandom ? 1 : 0, kInstance);
 }
 
-const bool added = add_case("place_points", place_points_case) &&
-                   add_case("enclose_patches", enclose_patches_case) &&
-                   add_case("enclose_boxes", enclose_boxes_case) &&
-                   add_case("tilt_patches", tilt_patches_case) &&
-                   add_case("tilt_groups", tilt_groups_case) &&
-                   add_case("enclose_primitives", enclose_primitives_case) &&
-                   add_case("find_near_patches", near_case);
+const bool added =
+    add_case("place_points", place_points_case) &&
+    add_case("enclose_patches", enclose_patches_case) &&
+    add_case("enclose_boxes", enclose_boxes_case) &&
+    add_case("enclose_slants", enclose_slants_case) &&
+    add_case("tilt_patches", tilt_patches_case) && add_case("tilt_groups", tilt_groups_case) &&
+    add_case("enclose_primitives", enclose_primitives_case) &&
+    add_case("find_open_groups", open_groups_case) && add_case("find_near_patches", near_case);
 
 }  // namespace
 }  // namespace weft::test

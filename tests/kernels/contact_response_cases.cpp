@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "kernels/contact/begin.h"
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
@@ -224,6 +226,17 @@ std::pair<Buffer<int>*, Buffer<int>*> add_lists(KernelCase& c, const std::string
     return {&begin, &list};
 }
 
+void busy_case(KernelCase& c) {
+    auto& begin = c.add<int>("around_begin", c.items + 1);
+    for (int i = 0; i < c.items; ++i) begin[at(i + 1)] = begin[at(i)] + c.random.integer(1, 9);
+    auto& around = add_indices(c, "around", begin[at(c.items)], c.items);
+    auto& near_counts = c.add<int>("near_counts", c.items);
+    for (int& count : near_counts.span()) count = c.random.integer(0, 9) == 0 ? 3 : 0;
+    auto& busy = add_indices(c, "busy", c.items, 4);
+    c.launch =
+        launch(kernels::find_busy_patches, c.segments, begin, around, near_counts, busy, kInstance);
+}
+
 /// A surface of nonsense, and pairs that nobody found: what counts is that all targets make the
 /// same of them.
 void fill_case(KernelCase& c) {
@@ -233,14 +246,17 @@ void fill_case(KernelCase& c) {
     auto& goals = add_points(c, "goals", c.items);
     auto& stiffness = c.add<float>("stiffness", c.items);
     for (float& k : stiffness.span()) k = c.random.real(1.0f, 100.0f);
-    auto& surface = add_indices(c, "surface", c.items, c.items + 1);
+    // In any order.
+    auto& apexes = c.add<int>("apexes", c.items);
+    std::iota(apexes.span().begin(), apexes.span().end(), 0);
+    for (int i = 0; i < c.items; ++i) std::swap(apexes[at(i)], apexes[at(c.random.integer(0, i))]);
     const auto [triangle_begin, triangle_list] = add_lists(c, "triangle", c.items, triangle_count);
     const auto [edge_begin, edge_list] = add_lists(c, "edge", c.items, edge_count);
     auto& triangles = add_indices(c, "triangles", 3 * triangle_count, c.items);
     auto& edges = add_indices(c, "edges", 2 * edge_count, c.items);
-    auto& apexes = add_indices(c, "apexes", c.items, c.items);
-    const auto [patch_begin, patch_list] = add_lists(c, "patch", c.items, c.items);
-    auto& near_counts = add_indices(c, "near_counts", c.items, 3);
+    auto& patches = c.add<int>("patches", c.items);
+    for (int i = 0; i < c.items; ++i) patches[at(i)] = i / 5;
+    auto& busy = add_indices(c, "busy", c.items, 4);
     Rows vt(c, "vt", c.items, 3);
     Rows tv(c, "tv", triangle_count, 2);
     Rows ee(c, "ee", edge_count, 2);
@@ -254,27 +270,29 @@ void fill_case(KernelCase& c) {
     auto& needs = add_indices(c, "needs", c.items, 9);
     auto& least = add_least(c);
     auto& nearest = c.add<float>("nearest", c.items);
-    // Who had no pairs had no rows.
+    // Who is not busy had no rows.
     for (int i = 0; i < c.items; ++i) {
-        if (least[at(i)] == WEFT_NO_PLANE)
-            plane_rows.counts[at(i)] = contacts.rows.counts[at(i)] = 0;
+        const std::size_t vertex = at(apexes[at(i)]);
+        if (busy[at(i / 5)] > 0) continue;
+        least[vertex] = WEFT_NO_PLANE;
+        plane_rows.counts[vertex] = contacts.rows.counts[vertex] = 0;
     }
-    c.launch =
-        launch(kernels::fill_contacts, c.segments, anchors, goals, stiffness, surface,
-               *triangle_begin, *triangle_list, *edge_begin, *edge_list, triangles, edges, apexes,
-               *patch_begin, *patch_list, near_counts, vt.rows, vt.counts, vt_others, tv.rows,
-               tv.counts, tv_others, ee.rows, ee.counts, ee_others, plane_rows.rows,
-               plane_rows.counts, plane_needs, planes, contacts.rows.rows, contacts.rows.counts,
-               needs, contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
-               contacts.normals, contacts.weights, contacts.measures, least, nearest, c.items,
-               triangle_count, edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
+    c.launch = launch(kernels::fill_contacts, c.segments, anchors, goals, stiffness, apexes,
+                      *triangle_begin, *triangle_list, *edge_begin, *edge_list, triangles, edges,
+                      patches, busy, vt.rows, vt.counts, vt_others, tv.rows, tv.counts, tv_others,
+                      ee.rows, ee.counts, ee_others, plane_rows.rows, plane_rows.counts,
+                      plane_needs, planes, contacts.rows.rows, contacts.rows.counts, needs,
+                      contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
+                      contacts.normals, contacts.weights, contacts.measures, least, nearest,
+                      c.items, triangle_count, edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
 }
 
 const bool added = add_case("begin_contacts", begin_case) && add_case("find_strays", strays_case) &&
                    add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
                    add_case("truncate_contacts", truncate_case) &&
                    add_case("gather_contacts", gather_case) &&
-                   add_case("take_snapshot", snapshot_case) && add_case("fill_contacts", fill_case);
+                   add_case("take_snapshot", snapshot_case) &&
+                   add_case("find_busy_patches", busy_case) && add_case("fill_contacts", fill_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&

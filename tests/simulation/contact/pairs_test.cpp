@@ -216,13 +216,7 @@ TEST_P(ContactPairsOf, AreWhatBruteForceFinds) {
         EXPECT_GT(oracle.flat_groups(), 2);
     }
     if (mesh_.name == "flat") {
-        const Rows near = run.near();
-        for (int p = 0; p < s.patch_count(); ++p) {
-            const auto beside = s.beside[p];
-            for (const int q : near[static_cast<std::size_t>(p)]) {
-                EXPECT_EQ(std::ranges::find(beside, q), beside.end()) << p << " and " << q;
-            }
-        }
+        for (const auto& row : run.near()) EXPECT_TRUE(row.empty());
     } else if (mesh_.name != "in one place" && mesh_.name != "aligned") {
         EXPECT_GT(sure, 50);
     }
