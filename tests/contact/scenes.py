@@ -228,6 +228,37 @@ def hit_sphere(speed, way=1.5):
                     + carried(f"velocity = [{speed}, 0, 0]")))
 
 
+def slit_mesh(cells=20, cell=0.02, gap=0.008):
+    """A square with a slit from its middle to one side, open by a gap."""
+    numbers, points, faces = {}, [], []
+
+    def vertex(x, y, cell_x):
+        side = 2 * x == cells and 2 * y > cells and 2 * cell_x >= cells
+        if (x, y, side) not in numbers:
+            numbers[x, y, side] = len(points) + 1
+            points.append(f"v {cell * x + gap * side:.7g} 0 {cell * y:.7g}")
+        return numbers[x, y, side]
+
+    for y in range(cells):
+        for x in range(cells):
+            a, b, c, d = (vertex(x + i, y + j, x) for j in (0, 1) for i in (0, 1))
+            faces += [f"f {a} {c} {b}", f"f {b} {c} {d}"]
+    return "\n".join(points + faces) + "\n"
+
+
+def slit(frames=300):
+    """One side of a slit (slit.obj) is carried over the other one, and pressed down on it: both are
+    flat, and patches along the slit have vertices of both."""
+    over = [(0.0, (0, 0, 0)), (0.1, (0, 0.025, 0)), (0.25, (0.05, 0.025, 0)), (0.5, (0.05, -0.1, 0))]
+    keys = ", ".join(f"{{ time = {time}, translate = {list(way)} }}" for time, way in over)
+    pins = "".join(f"[[cloth.pins]]\nbox = {box}\n{motion}\n" for box, motion in (
+        ([[-1, -1, -1], [1, 1, 0.01]], ""),
+        ([[0.1, -1, 0.39], [0.202, 1, 1]], f"motion.keyframes = [{keys}]"),
+        ([[0.3, -1, 0.39], [1, 1, 1]], "")))
+    return (head(frames, gravity="[0, -0.1, 0]")
+            + cloth("flaps", "mesh = \"slit.obj\"", "translate = [0, 0, 0]\ndamping = 1.0\n" + pins))
+
+
 SHORT = {
     "stack10": stack(10, 9, 60),
     "twist": twist(200),
@@ -238,6 +269,7 @@ SHORT = {
     "pressed_blocks": pressed_blocks(100),
     "knife": knife(),
     "sphere5": hit_sphere(5.0),
+    "slit": slit(),
 }
 
 # For the other solvers: through each other from the first substep on, pressed together for long,
@@ -246,7 +278,7 @@ SHORT = {
 OTHER_SOLVERS = {
     "sosd": ["fast_sheets", "needle", "pressed_blocks"],
     "jpgd": ["fast_sheets", "needle", "pressed_blocks", "knife"],
-    "xpbd": ["fast_sheets", "pressed_blocks", "fold", "stack10"],
+    "xpbd": ["fast_sheets", "pressed_blocks", "fold", "stack10", "slit"],
     "newton": ["fast_sheets", "needle", "pressed_blocks", "knife"],
 }
 

@@ -33,6 +33,7 @@ def simulate(folder, text, *arguments, trace=False,
              where=("--device", "cpu/1", "--plan", "single")):
     (folder / "scene.toml").write_text(text)
     (folder / "sphere.obj").write_text(scenes.sphere_mesh())
+    (folder / "slit.obj").write_text(scenes.slit_mesh())
     output = [] if trace else ["--no-trace"]
     result = subprocess.run([WEFT, "run", "scene.toml", *where, *output, "--out", "out", "--json",
                              *arguments],
