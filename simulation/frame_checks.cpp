@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/checks/crossing_checks.h"
 #include "simulation/checks/diagnosis.h"
 #include "simulation/checks/error_samples.h"
 #include "simulation/checks/watch.h"
@@ -124,9 +125,21 @@ void Simulation::look_at_contact(FrameRecord& frame) {
     frame.contacts = {contact->account()};
     frame.contacts.front().redone = redone_;
     const std::string what = contact->trouble();
+    if (!what.empty()) {
+        tell(
+            {Alarm::Kind::kDoubt, what, {}},
+            "surfaces may pass through each other there: more substeps may help (docs/contact.md)");
+    }
+    if (crossings_ && crossings_->wants(*model_, frame_)) look_at_crossings();
+}
+
+/// What nothing above foresaw is told, too.
+void Simulation::look_at_crossings() {
+    const std::string what = crossings_->look(*model_);
     if (what.empty()) return;
-    tell({Alarm::Kind::kDoubt, what, {}},
-         "surfaces may pass through each other there: more substeps may help (docs/contact.md)");
+    tell({Alarm::Kind::kDoubt, "contact: " + what, {}},
+         "they did not at the start, and contact does not part them: more substeps may help "
+         "(docs/contact.md)");
 }
 
 bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {

@@ -10,6 +10,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/unused_memory.h"
 #include "simulation/async_offer.h"
+#include "simulation/checks/crossing_checks.h"
 #include "simulation/checks/error_samples.h"
 #include "simulation/checks/start_checks.h"
 #include "simulation/checks/watch.h"
@@ -68,7 +69,13 @@ Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> 
         samples_ = std::make_unique<ErrorSamples>(*model_, host_threads(devices));
     }
     warn_of_start(*model_, warnings);
-    if (model_->scene.contact) check_start_contacts(*model_, options.on_crossing, warnings);
+    if (model_->scene.contact) {
+        check_start_contacts(*model_, options.on_crossing, warnings);
+        if (options.on_trouble != OnTrouble::kIgnore) {
+            crossings_ =
+                std::make_unique<CrossingChecks>(*model_, options.on_crossing == OnCrossing::kWarn);
+        }
+    }
     for (std::string& trouble : opencl_troubles()) warnings.push_back(std::move(trouble));
     place();
     give_back_freed();

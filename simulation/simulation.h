@@ -19,6 +19,7 @@
 
 namespace weft {
 
+class CrossingChecks;
 class ErrorSamples;
 struct StepEstimate;
 class Watch;
@@ -166,6 +167,7 @@ private:
     void iterate_less(double error);
     void tell_of_tolerance(double error);
     void look_at_contact(FrameRecord& frame);
+    void look_at_crossings();
     StoredInContacts stored_in_contacts();
     bool goes_on_with(const Alarm& alarm, const Step& step);
     bool halve(const Alarm& alarm);
@@ -177,6 +179,8 @@ private:
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<Watch> watch_;
     std::unique_ptr<ErrorSamples> samples_;  ///< null: nothing is estimated
+    std::unique_ptr<CrossingChecks>
+        crossings_;  ///< null: no contact, or energies are not looked at
     std::unique_ptr<PlannedExecutor> run_;
     std::string async_choice_;
     int first_substeps_ = 0;     ///< that the run began with

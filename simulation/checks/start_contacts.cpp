@@ -9,9 +9,9 @@
 
 #include "runtime/error.h"
 #include "runtime/tbb/parallel.h"
+#include "simulation/checks/contact_surface.h"
 #include "simulation/checks/energy_account.h"
 #include "simulation/checks/triangle_distance.h"
-#include "simulation/contact/knots.h"
 #include "simulation/mesh/vertex_sets.h"
 #include "simulation/mesh/winding.h"
 #include "simulation/model/contact_thickness.h"
@@ -22,70 +22,8 @@ namespace {
 
 constexpr std::size_t kNamedPairs = 20;
 
-/// The model's triangles at its positions, and which pairs of them contact looks at.
-class StartSurface {
-public:
-    explicit StartSurface(const Model& model)
-        : model_(model),
-          positions_(model.positions->span().size()),
-          held_(positions_.size()),
-          knots_(positions_.size()),
-          tied_(positions_.size()) {
-        const std::vector<int> knots = knots_of(model, model.scene.contact->thickness);
-        std::vector<int> of_knot(positions_.size());
-        for (const int knot : knots) ++of_knot[static_cast<std::size_t>(knot)];
-        for (std::size_t v = 0; v < positions_.size(); ++v) {
-            const float4& x = (*model.positions)[v];
-            const std::size_t s = index(model.scene_vertex(static_cast<int>(v)));
-            positions_[s] = {x.x, x.y, x.z};
-            held_[s] = x.w == 0.0f ? 1 : 0;
-            knots_[s] = knots[v];
-            tied_[s] = of_knot[static_cast<std::size_t>(knots[v])] > 1 ? 1 : 0;
-        }
-    }
-
-    PlainSurface surface() const { return {positions_, model_.triangles}; }
-    Corners corners(int t) const {
-        return {surface().corner(t, 0), surface().corner(t, 1), surface().corner(t, 2)};
-    }
-    int body(int t) const { return static_cast<int>(model_.body_of_triangle(t)); }
-    Vec3 position(int vertex) const { return positions_[static_cast<std::size_t>(vertex)]; }
-    int knot(int vertex) const { return knots_[static_cast<std::size_t>(vertex)]; }
-    bool is_tied(int vertex) const { return tied_[static_cast<std::size_t>(vertex)] != 0; }
-    const std::array<int, 3>& triangle(int t) const {
-        return model_.triangles[static_cast<std::size_t>(t)];
-    }
-
-    bool counts(int a, int b) const {
-        if (body(a) == body(b) && !model_.scene.contact->self) return false;
-        return !(is_held(a) && is_held(b)) && (share_a_vertex(a, b) || !share_a_knot(a, b));
-    }
-    bool share_a_vertex(int a, int b) const {
-        return std::ranges::any_of(triangle(a),
-                                   [&](int v) { return std::ranges::count(triangle(b), v) != 0; });
-    }
-
-private:
-    bool is_held(int t) const {
-        return std::ranges::all_of(triangle(t),
-                                   [&](int v) { return held_[static_cast<std::size_t>(v)] != 0; });
-    }
-    bool share_a_knot(int a, int b) const {
-        return std::ranges::any_of(triangle(a), [&](int v) {
-            return std::ranges::find(triangle(b), knot(v), [&](int w) { return knot(w); }) !=
-                   triangle(b).end();
-        });
-    }
-
-    const Model& model_;
-    std::vector<Vec3> positions_;  ///< in scene order
-    std::vector<char> held_;
-    std::vector<int> knots_;  ///< likewise
-    std::vector<char> tied_;  ///< likewise: whether a knot has others
-};
-
 /// Pairs nearer than `floor` that do not cross.
-void find_near(const StartSurface& start, const BoxTree& tree, double floor,
+void find_near(const ContactSurface& start, const BoxTree& tree, double floor,
                StartContacts& contacts) {
     struct Near {
         std::vector<TrianglePair> pairs;
@@ -116,7 +54,7 @@ void find_near(const StartSurface& start, const BoxTree& tree, double floor,
 // ---- bodies upon others ----
 
 /// Whether a corner of the triangle is tied to a vertex of another body in the same place.
-bool is_tied_upon(const StartSurface& start, int t, int corner, double floor,
+bool is_tied_upon(const ContactSurface& start, int t, int corner, double floor,
                   const std::multimap<int, std::pair<int, int>>& by_knot) {
     const auto [first, last] = by_knot.equal_range(start.knot(corner));
     return std::any_of(first, last, [&](const auto& entry) {
@@ -126,7 +64,7 @@ bool is_tied_upon(const StartSurface& start, int t, int corner, double floor,
     });
 }
 
-void find_overlaid(const StartSurface& start, int triangles, double floor,
+void find_overlaid(const ContactSurface& start, int triangles, double floor,
                    StartContacts& contacts) {
     std::multimap<int, std::pair<int, int>> by_knot;  // vertex, body
     for (int t = 0; t < triangles; ++t) {
@@ -151,7 +89,7 @@ struct Piece {
     Bounds box;
 };
 
-std::vector<Piece> pieces_of(const Model& model, const StartSurface& start) {
+std::vector<Piece> pieces_of(const Model& model, const ContactSurface& start) {
     VertexSets sets(model.vertex_count());
     for (const auto& t : model.triangles) {
         sets.unite(t[0], t[1]);
@@ -178,7 +116,7 @@ struct TriangleRange {
     Bounds box;
 };
 
-std::vector<TriangleRange> ranges_of(const Model& model, const StartSurface& start) {
+std::vector<TriangleRange> ranges_of(const Model& model, const ContactSurface& start) {
     std::vector<TriangleRange> ranges(model.bodies.size());
     for (int t = 0; t < static_cast<int>(model.triangles.size()); ++t) {
         TriangleRange& range = ranges[static_cast<std::size_t>(start.body(t))];
@@ -220,7 +158,7 @@ bool has_inside(const Model& model, std::size_t body, const TriangleRange& range
     return model.bodies[body].kind == "obstacle" && is_closed(model, range.begin, range.end);
 }
 
-void find_swallowed(const Model& model, const StartSurface& start, StartContacts& contacts) {
+void find_swallowed(const Model& model, const ContactSurface& start, StartContacts& contacts) {
     const std::vector<TriangleRange> ranges = ranges_of(model, start);
     const std::vector<Piece> pieces = pieces_of(model, start);
     for (std::size_t b = 0; b < ranges.size(); ++b) {
@@ -239,31 +177,14 @@ void find_swallowed(const Model& model, const StartSurface& start, StartContacts
 
 // ---- words ----
 
-std::string body_name(const BodyRange& body) {
-    return fmt::format("{} '{}'", body.kind, body.name);
-}
-
 class Words {
 public:
     explicit Words(const Model& model) : model_(model) {}
 
-    /// "cloth 'a' triangle 3 and cloth 'b' triangle 5"
-    std::string pair(const TrianglePair& pair) const {
-        return triangle(pair[0]) + " and " + triangle(pair[1]);
-    }
-    std::string crossings(const std::vector<TrianglePair>& pairs) const {
-        std::vector<std::string> named;
-        for (std::size_t i = 0; i < std::min(pairs.size(), kNamedPairs); ++i) {
-            named.push_back(pair(pairs[i]));
-        }
-        return fmt::format("{} pair{} of triangles cross: {}{}", pairs.size(),
-                           pairs.size() == 1 ? "" : "s", fmt::join(named, "; "),
-                           pairs.size() > kNamedPairs ? "; ..." : "");
-    }
     std::string overlaid(const std::vector<int>& triangles) const {
         return fmt::format("{} triangle{} upon what their corners are tied to (the first: {})",
                            triangles.size(), triangles.size() == 1 ? " lies" : "s lie",
-                           triangle(triangles.front()));
+                           triangle_name(model_, triangles.front()));
     }
     std::string swallowed(const StartContacts::Swallowed& what) const {
         const BodyRange& body = model_.bodies[static_cast<std::size_t>(what.body)];
@@ -273,17 +194,15 @@ public:
     }
 
 private:
-    std::string triangle(int t) const {
-        const BodyRange& body = model_.bodies[model_.body_of_triangle(t)];
-        return fmt::format("{} triangle {}", body_name(body), t - body.first_triangle);
-    }
-
     const Model& model_;
 };
 
-std::vector<std::string> what_crosses(const StartContacts& contacts, const Words& words) {
+std::vector<std::string> what_crosses(const Model& model, const StartContacts& contacts) {
+    const Words words(model);
     std::vector<std::string> texts;
-    if (!contacts.crossings.empty()) texts.push_back(words.crossings(contacts.crossings));
+    if (!contacts.crossings.empty()) {
+        texts.push_back(text_of_crossings(model, contacts.crossings, kNamedPairs));
+    }
     if (!contacts.overlaid.empty()) texts.push_back(words.overlaid(contacts.overlaid));
     for (const auto& what : contacts.swallowed) {
         if (texts.size() < kNamedPairs) texts.push_back(words.swallowed(what));
@@ -294,7 +213,7 @@ std::vector<std::string> what_crosses(const StartContacts& contacts, const Words
 }  // namespace
 
 StartContacts find_start_contacts(const Model& model, double floor) {
-    const StartSurface start(model);
+    const ContactSurface start(model);
     const PlainSurface surface = start.surface();
     const BoxTree tree = surface.tree();
     StartContacts contacts;
@@ -310,8 +229,7 @@ void check_start_contacts(const Model& model, OnCrossing on_crossing, Warnings& 
     const Contact& contact = *model.scene.contact;
     const double floor = contact_floor(contact.thickness, reach_of(model.positions->span()));
     const StartContacts contacts = find_start_contacts(model, floor);
-    const Words words(model);
-    const std::vector<std::string> texts = what_crosses(contacts, words);
+    const std::vector<std::string> texts = what_crosses(model, contacts);
     if (!texts.empty() && on_crossing == OnCrossing::kStop) {
         throw UserError(fmt::format(
             "{}: bodies cross at the start, and [contact] cannot part them: {}; move them apart, "
@@ -326,7 +244,7 @@ void check_start_contacts(const Model& model, OnCrossing on_crossing, Warnings& 
         "{} pair{} of triangles start nearer to each other than {:.3g} m, which contact keeps "
         "surfaces apart, the nearest at {:.3g} m (the first: {}): they may get through each other",
         contacts.near.size(), contacts.near.size() == 1 ? "" : "s", floor, contacts.least,
-        words.pair(contacts.near.front())));
+        name_of_pair(model, contacts.near.front())));
 }
 
 }  // namespace weft
