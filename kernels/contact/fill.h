@@ -67,23 +67,32 @@ WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat
 /// gets what inertia asks for and half of what is left then, so that one which hardly moves can
 /// still be pushed, or swing; where the gap is too small for that, both get a part of it by how
 /// fast they come. What is led by the scene comes as far as it wants: the plane goes before it,
-/// also over where the other side is. (Where both are led through each other, it goes between.)
+/// also over where the other side is, and that one keeps a reserve from it, lest the gap shrink
+/// from substep to substep until nothing is left of it. (Where both are led through each other, it
+/// goes between.)
 /// distance     of the two sides [m]
 /// a, b         the most that vertices of a side come nearer [m]
 /// led_a, led_b  likewise, of held vertices alone
 /// least        what is left to share where there is nothing [m]
-WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b, real least) {
+/// reserve      no less than that, and no more than the distance [m]
+WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b, real least,
+                           real reserve) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
+    const real own_a = a - led_a;
     const real own_b = b - led_b;
-    const real both_ways = (a - led_a) + own_b;
     const real left = distance - led_a - led_b;
-    const real shared = larger(left, least);
+    const real comes_a = led_a > zero ? (own_a + led_b > zero ? zero : one) : zero;
+    const real comes_b = led_b > zero ? (own_b + led_a > zero ? zero : one) : zero;
+    const real shared = larger(left, comes_a + comes_b > zero ? reserve : least);
+    const real both_ways = own_a + own_b;
     const real spare = larger(shared - both_ways, zero);
     const real met = smaller(shared / larger(both_ways, splat(1e-12f)), one);
-    const real wanted = own_b * met + splat(0.5f) * spare;
+    const real asked = own_b * met + splat(0.5f) * spare;
+    const real before_b = comes_b > zero ? larger(asked, reserve) : asked;
+    const real wanted = comes_a > zero ? smaller(before_b, shared - reserve) : before_b;
     const real bounded = smaller(larger(wanted, splat(0.05f) * shared), splat(0.95f) * shared);
-    const real too_far = smaller(left - least, zero);
+    const real too_far = smaller(left - shared, zero);
     const real part_of_a = led_a / larger(led_a + led_b, splat(1e-12f));
     return led_b + bounded + too_far * part_of_a;
 }
@@ -134,9 +143,10 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
     const real b23 = approach_of(go2, go3);
     const real led23 = approach_of(led2, led3);
     const real least = smaller(splat(settings.slack), splat(0.25f) * f.distance);
+    const real reserve = smaller(splat(settings.slack), f.distance);
     if (is_edges) {
         const real end = plane_end(f.distance, approach_of(-go0, -go1), b23,
-                                   approach_of(-led0, -led1), led23, least);
+                                   approach_of(-led0, -led1), led23, least, reserve);
         const real top = w.y * h1;
         const real over = f.distance - end - top;
         const real under = end - w.z * h2 - w.w * h3;
@@ -146,7 +156,7 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
         f.room.w = under - h3;
     } else {
         const real end = plane_end(f.distance, approach_of(-go0, zero), larger(b23, go1),
-                                   approach_of(-led0, zero), larger(led23, led1), least);
+                                   approach_of(-led0, zero), larger(led23, led1), least, reserve);
         const real under = end - w.y * h1 - w.z * h2 - w.w * h3;
         f.room.x = f.distance - end;
         f.room.y = under - h1;

@@ -5,6 +5,8 @@
 
 /// Rounds of taking out what leads through planes, before the rest of the way is scaled.
 #define WEFT_KEEPING_ROUNDS 3
+/// Rounds of making way for planes that come.
+#define WEFT_FOOTHOLD_ROUNDS 8
 
 WEFT_KERNELS_BEGIN
 
@@ -14,7 +16,8 @@ typedef struct {
     real through;
 } turned_way;
 
-/// The end of a way, and how much the foothold lacks to be before all planes [m], if it does.
+/// The end of a way, and how much the foothold lacks to be before all planes [m], if it does; half
+/// of what stays between it and them is left for rounding.
 typedef struct {
     real3 way;
     real lack;
@@ -51,8 +54,9 @@ WEFT_INLINE kept_way share_of_way(WEFT_GLOBAL const float4* planes, whole start,
         const real room = room_before(plane.w, splat(hard));
         const real part = share_before(foothold, way, xyz(plane), room);
         share = on ? smaller(share, part) : share;
+        const real stays = smaller(larger(plane.w, splat(0.0f)), splat(hard));
         const real missing = -(dot3(foothold, xyz(plane)) + room);
-        lack = on ? larger(lack, missing) : lack;
+        lack = on ? larger(lack, missing - splat(0.5f) * stays) : lack;
     }
     kept_way kept = {between3(foothold, way, share), lack};
     return kept;
@@ -85,7 +89,7 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
     const real zero = splat(0.0f);
     real3 way = make3(zero, zero, zero);
     const int longest = largest_whole(count);
-    for (int round = 0; round < WEFT_KEEPING_ROUNDS; ++round) {
+    for (int round = 0; round < WEFT_FOOTHOLD_ROUNDS; ++round) {
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
             const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
@@ -146,8 +150,8 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
         store4_where(out, positions, i, with_w(end, x.w));
         const real3 taken = subtract(subtract(end, anchor), wanted);
         const mask is_cut = both(out, dot3(taken, taken) > splat(1e-6f) * dot3(wanted, wanted));
-        // Half of what stays at least is left for rounding.
-        const real beyond = larger(kept.lack - splat(0.5f * hard), from - radius);
+        const real rounding = splat(7e-7f) * length3(anchor) + splat(1e-4f) * from;
+        const real beyond = larger(kept.lack - rounding, from - radius);
         const mask is_lost = both(out, beyond > zero);
         result = is_lost ? splat_whole(2) : (is_cut ? splat_whole(1) : result);
     }

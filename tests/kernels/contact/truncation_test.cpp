@@ -147,6 +147,8 @@ TEST(Truncation, MakesWayForAPlaneThatComes) {
     EXPECT_NEAR(along.at.x, 0.05, 1e-4);
 }
 
+constexpr float kReserve = 0.004f;
+
 /// Where planes end: B begins at 0 and A at the distance, both come nearer by what they are led.
 TEST(Planes, EndBeforeWhatTheSceneLeads) {
     Random random(6);
@@ -155,24 +157,42 @@ TEST(Planes, EndBeforeWhatTheSceneLeads) {
         const float led = random.real(0.0f, 5.0f * kDistance);
         const float own = random.real(0.0f, 5.0f * kDistance);
         const float least = random.real(1e-4f, 0.25f * kDistance);
-        const float before_b = kernels::plane_end(kDistance, own, led, 0.0f, led, least);
+        const float before_b = kernels::plane_end(kDistance, own, led, 0.0f, led, least, kReserve);
         EXPECT_GT(before_b, led) << "B goes there";
-        const float before_a = kernels::plane_end(kDistance, led, own, led, 0.0f, least);
+        const float before_a = kernels::plane_end(kDistance, led, own, led, 0.0f, least, kReserve);
         EXPECT_LT(before_a, kDistance - led) << "A goes there";
-        const float free = kernels::plane_end(kDistance, own, led, 0.0f, 0.0f, least);
+        const float free = kernels::plane_end(kDistance, own, led, 0.0f, 0.0f, least, kReserve);
         EXPECT_GT(free, 0.0f);
         EXPECT_LT(free, kDistance);
+    }
+}
+
+/// And what has to give way keeps its distance, whatever its inertia asks for: gaps that shrink in
+/// every substep are gone in the end.
+TEST(Planes, KeepAReserveBeforeWhatTheSceneLeads) {
+    constexpr float kLeast = 1e-4f;
+    Random random(5);
+    for (int trial = 0; trial < 3000; ++trial) {
+        const float distance = random.real(0.1f * kReserve, 4.0f * kReserve);
+        const float reserve = std::min(distance, kReserve);
+        const float led = random.real(1e-6f, 0.05f);
+        const float own = random.real(0.0f, 0.05f);
+        const float kept = 0.949f * std::min(reserve, std::max(distance - led, reserve));
+        const float before_b = kernels::plane_end(distance, own, led, 0.0f, led, kLeast, reserve);
+        EXPECT_GT(before_b - led, kept);
+        const float before_a = kernels::plane_end(distance, led, own, led, 0.0f, kLeast, reserve);
+        EXPECT_GT(distance - led - before_a, kept);
     }
 }
 
 /// Whoever hardly moves keeps room to be pushed, or to swing, even if all that comes is the other.
 TEST(Planes, LeaveBothSidesHalfOfWhatNobodyAsksFor) {
     constexpr float kDistance = 0.01f;
-    const float still = kernels::plane_end(kDistance, 1e-5f, 0.0f, 0.0f, 0.0f, 1e-4f);
+    const float still = kernels::plane_end(kDistance, 1e-5f, 0.0f, 0.0f, 0.0f, 1e-4f, kReserve);
     EXPECT_NEAR(still, 0.5f * (kDistance - 1e-5f), 1e-7f);
-    const float both = kernels::plane_end(kDistance, 0.004f, 0.002f, 0.0f, 0.0f, 1e-4f);
+    const float both = kernels::plane_end(kDistance, 0.004f, 0.002f, 0.0f, 0.0f, 1e-4f, kReserve);
     EXPECT_NEAR(both, 0.004f, 1e-7f);
-    const float fast = kernels::plane_end(kDistance, 0.04f, 0.01f, 0.0f, 0.0f, 1e-4f);
+    const float fast = kernels::plane_end(kDistance, 0.04f, 0.01f, 0.0f, 0.0f, 1e-4f, kReserve);
     EXPECT_NEAR(fast, 0.2f * kDistance, 1e-7f) << "by how fast they come";
 }
 
