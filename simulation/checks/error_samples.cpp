@@ -36,6 +36,14 @@ double cost_of_iteration(const SolverSettings& solver) {
 /// Further stretched than what there is already.
 bool is_stretched(double strain, double known) { return strain > 1.5 * known; }
 
+/// An estimate is made in the last one of so many frames.
+int frames_per_estimate(const Model& model) {
+    constexpr double kShare = 0.015;  ///< of a run's time
+    const SolverSettings& solver = model.scene.solver;
+    const double frame = model.scene.substeps * solver.iterations * cost_of_iteration(solver);
+    return static_cast<int>(std::ceil(1.0 / (kShare * frame)));
+}
+
 }  // namespace
 
 std::vector<char> held_by_obstacles(const Model& model, double time) {
@@ -79,13 +87,6 @@ void ErrorSamples::note(const Model& model, double strain) {
     ends_.reset();
 }
 
-int frames_per_estimate(const Model& model) {
-    constexpr double kShare = 0.015;  ///< of a run's time
-    const SolverSettings& solver = model.scene.solver;
-    const double frame = model.scene.substeps * solver.iterations * cost_of_iteration(solver);
-    return static_cast<int>(std::ceil(1.0 / (kShare * frame)));
-}
-
 bool ErrorSamples::wants(const Model& model, int frame) const {
     if (model.families.empty()) return false;
     constexpr int kOften = 4;  // where iterations depend on it
@@ -93,9 +94,12 @@ bool ErrorSamples::wants(const Model& model, int frame) const {
     if (!has_tolerance && last_strain_ > kVisible && is_stretched(last_strain_, most_strain_)) {
         return true;
     }
-    int every = frames_per_estimate(model);
-    if (has_tolerance) every = std::min(every, kOften);
-    return frame % every == every - 1 || frame == model.scene.frames - 1;
+    const int left = model.scene.frames - 1 - frame;
+    if (left == 0) return true;
+    const int every = frames_per_estimate(model);
+    if (has_tolerance && every > kOften) return frame % kOften == kOften - 1;
+    // Not shortly before the last frame, which is estimated anyhow.
+    return frame % every == every - 1 && (left < 0 || 2 * left >= every);
 }
 
 void ErrorSamples::begin(const Model& model, double time) {

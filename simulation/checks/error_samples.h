@@ -74,7 +74,4 @@ private:
 /// In scene order: whether an obstacle touches the vertex at a time [s]. Empty: there are none.
 std::vector<char> held_by_obstacles(const Model& model, double time);
 
-/// An estimate is made in the last one of so many frames.
-int frames_per_estimate(const Model& model);
-
 }  // namespace weft
