@@ -259,6 +259,37 @@ def slit(frames=300):
             + cloth("flaps", "mesh = \"slit.obj\"", "translate = [0, 0, 0]\ndamping = 1.0\n" + pins))
 
 
+LED_CORNERS = ((-1, -1), (1, -1), (1, 1))
+
+
+def led_about(seed, frames=200):
+    """A sheet whose corners are led to random places and turned there, through whatever is in the
+    way: more than cloth can always give way to. Below it another one that is held at an edge."""
+    chance = random.Random(seed)
+    pins = ""
+    for x, z in LED_CORNERS:
+        low, high = ([0.2 * x - 0.03, -1, 0.2 * z - 0.03], [0.2 * x + 0.03, 1, 0.2 * z + 0.03])
+        keys = "{ time = 0.0 }"
+        for quarter in range(1, 5):
+            way = [round(chance.uniform(-0.12, 0.12), 4) for _ in range(3)]
+            keys += (f", {{ time = {frames * SUBSTEP * quarter / 4:.6g}, translate = {way}, "
+                     f"rotate = {chance.uniform(-150, 150):.4g} }}")
+        pins += (f"[[cloth.pins]]\nbox = [{low}, {high}]\nmotion = {{ center = [{0.2 * x}, 0, "
+                 f"{0.2 * z}], axis = [{x}, 0.5, {z}], keyframes = [{keys}] }}\n")
+    return (head(frames, "thickness = 0.005", iterations=chance.choice([3, 6, 10]))
+            + cloth("led", grid(0.4, 0.4, 17, 17), "translate = [0, 0, 0]\ndamping = 1.0\n" + pins,
+                    stiffness=chance.choice([50.0, 500.0]))
+            + cloth("below", grid(0.4, 0.4, 12, 12),
+                    "translate = [0, -0.03, 0]\npins = { edges = [\"x-\"] }"))
+
+
+def held_in_led_about(start):
+    """Which vertices are, by where they start."""
+    led = {v for v, (x, y, z) in enumerate(start) if y > -0.01 and
+           any(max(abs(x - 0.2 * cx), abs(z - 0.2 * cz)) < 0.0301 for cx, cz in LED_CORNERS)}
+    return led | {v for v, (x, y, _) in enumerate(start) if y < -0.02 and x < -0.199}
+
+
 SHORT = {
     "stack10": stack(10, 9, 60),
     "twist": twist(200),

@@ -57,6 +57,19 @@ def test_nothing_passes(tmp_path, text):
     expect_that_nothing_passes(tmp_path, text)
 
 
+@pytest.mark.parametrize("seed", range(40 if IS_LONG else 8))
+def test_what_crosses_is_told(tmp_path, seed):
+    """Whatever lets it: what is held is led through what is held, say. Some of these cross."""
+    solver = ["vbd", "xpbd", "sosd", "jpgd", "newton"][seed % 5]
+    text = scenes.led_about(seed).replace('"vbd"', f'"{solver}"')
+    run, summary = simulate(tmp_path, text, "--on-trouble", "report")
+    held = scenes.held_in_led_about(run.positions[0])
+    crossing = [pair for pair in oracle.crossing_pairs(run, run.positions[-1])
+                if not held.issuperset(int(v) for t in pair for v in run.triangles[t])]
+    told = [text for text in summary["warnings"] if "contact: " in text]
+    assert told or not crossing, (crossing, summary["warnings"])
+
+
 def jittered_cases():
     """Ten starts of each case in long runs; else one of each scene, another one for each."""
     if IS_LONG:
