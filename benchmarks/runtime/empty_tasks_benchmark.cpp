@@ -91,16 +91,25 @@ constexpr const char* kNothing =
     "__global float4* d, __global int* e, float f, int g, int h, int i, int j, int k) {}";
 
 /// A queue that lasts as long as the process, as those of streams do (runtime/opencl/stream.cpp):
-/// PoCL's workers drop their references to commands only after clFinish has returned.
+/// PoCL's workers drop their references to commands, and to what these name, only after clFinish
+/// has returned.
 struct Queue {
     cl::Context context;
     cl::CommandQueue queue;
     std::vector<cl::Event> events;
+    cl::Kernel kernel;
+    cl::Buffer memory;
 };
 Queue& lasting_queue(const cl::Device& device) {
     static auto* all = new std::deque<Queue>;
     const cl::Context context(device);
-    all->push_back({context, cl::CommandQueue(context, device, CL_QUEUE_PROFILING_ENABLE), {}});
+    cl::Program program(context, kNothing);
+    program.build();
+    all->push_back({context,
+                    cl::CommandQueue(context, device, CL_QUEUE_PROFILING_ENABLE),
+                    {},
+                    cl::Kernel(program, "nothing"),
+                    cl::Buffer(context, CL_MEM_READ_WRITE, 64)});
     return all->back();
 }
 
@@ -113,11 +122,7 @@ void enqueue_empty_kernels(benchmark::State& state) {
         state.SkipWithError(error.what());
         return;
     }
-    auto& [context, queue, events] = lasting_queue(device);
-    cl::Program program(context, kNothing);
-    program.build();
-    cl::Kernel kernel(program, "nothing");
-    const cl::Buffer memory(context, CL_MEM_READ_WRITE, 64);
+    auto& [context, queue, events, kernel, memory] = lasting_queue(device);
     for (cl_uint a = 0; a < 5; ++a) kernel.setArg(a, memory);
     kernel.setArg(5, 0.01f);
     for (cl_uint a = 6; a < 11; ++a) kernel.setArg(a, 0);
