@@ -133,13 +133,16 @@ void Simulation::look_at_contact(FrameRecord& frame) {
     if (crossings_ && crossings_->wants(*model_, frame_)) look_at_crossings();
 }
 
-/// What nothing above foresaw is told, too.
+/// What nothing above foresaw is told, too: once, however much was told before.
 void Simulation::look_at_crossings() {
     const std::string what = crossings_->look(*model_);
     if (what.empty()) return;
-    tell({Alarm::Kind::kDoubt, "contact: " + what, {}},
-         "they did not at the start, and contact does not part them: more substeps may help "
-         "(docs/contact.md)");
+    troubles_.push_back(
+        {frame_,
+         fmt::format("contact: {}; they did not at the start, and contact does not part them: "
+                     "more substeps may help (docs/contact.md)",
+                     what),
+         false});
 }
 
 bool Simulation::goes_on_with(const Alarm& alarm, const Step& step) {

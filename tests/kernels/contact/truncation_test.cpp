@@ -22,6 +22,7 @@ Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
 struct Cut {
     Vec3 at;
     bool is_cut = false;
+    bool is_lost = false;
 };
 
 Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes) {
@@ -45,7 +46,7 @@ Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes) 
     const Launch one = launch(kernels::truncate_contacts, Segments{}, positions, anchors, least,
                               table.rows(), table.counts(), column, cut, kSoft, kHard);
     run_on_host(one, one.kernel->scalar, 0, 1);
-    return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1};
+    return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1, cut[0] == 2};
 }
 
 TEST(Truncation, LeavesAloneWhatIsAllowed) {
@@ -145,6 +146,17 @@ TEST(Truncation, MakesWayForAPlaneThatComes) {
         truncate({0, 0, 0, 0.1f}, {0.05, -0.02, 0}, {{0, 1, 0, -0.03f}, {0, -1, 0, 0.05f}});
     EXPECT_NEAR(along.at.y, 0.03, 1e-4);
     EXPECT_NEAR(along.at.x, 0.05, 1e-4);
+}
+
+/// Where one comes over it that another one does not let it give way to, it is lost, however little
+/// is missing: nothing stays between it and what is led.
+TEST(Truncation, IsLostWhereTwoPlanesLeaveNoRoom) {
+    const auto between = [](float room) {
+        return truncate({0, 0, 0, 0.1f}, {0, 0, 0}, {{0, 1, 0, -0.03f}, {0, -1, 0, 0.03f + room}});
+    };
+    EXPECT_TRUE(between(-0.25f * kHard).is_lost);
+    EXPECT_TRUE(between(-0.02f * kHard).is_lost);
+    EXPECT_FALSE(between(kHard).is_lost);
 }
 
 constexpr float kReserve = 0.004f;

@@ -168,6 +168,18 @@ void SurfaceOf::expect_without_slits(const PatchGroups& groups,
         const std::set<int> other = vertices(h);
         return std::ranges::any_of(vertices(g), [&](int v) { return other.contains(v); });
     };
+    const auto hull = [&](int g) {
+        std::set<int> all;
+        for (int p = begin[static_cast<std::size_t>(g)]; p < begin[static_cast<std::size_t>(g) + 1];
+             ++p) {
+            all.insert(s_.hulls[p].begin(), s_.hulls[p].end());
+        }
+        return all;
+    };
+    const auto share_a_hull = [&](int g, int h) {
+        const std::set<int> other = hull(h);
+        return std::ranges::any_of(hull(g), [&](int v) { return other.contains(v); });
+    };
     const auto is_one_piece = [&](int g) {
         const auto all = faces(g);
         std::set<int> reached(all.front().begin(), all.front().end());
@@ -198,6 +210,24 @@ void SurfaceOf::expect_without_slits(const PatchGroups& groups,
             const double turns = turn(g) + (h == g ? 0.0 : turn(h)) + (is_direct ? 0.0 : turn(via));
             EXPECT_TRUE(are_inside || turns <= kMostTurn) << g << " and " << h << " by " << via;
             EXPECT_TRUE(touch(g, via) && touch(via, h));
+            const auto back = groups.beside[h];
+            const auto same = std::ranges::find(back, g);
+            ASSERT_NE(same, back.end()) << g << " and " << h;
+            const auto entry = groups.beside.begin[static_cast<std::size_t>(h)] +
+                               static_cast<int>(same - back.begin());
+            EXPECT_EQ(groups.between[static_cast<std::size_t>(entry)], via);
+        }
+        for (int h = 0; h < groups.beside.count(); ++h) {
+            if (!share_a_hull(g, h) || !is_one_piece(g) || !is_one_piece(h)) continue;
+            const bool is_slit = is_at_border(g) && is_at_border(h) &&
+                                 turn(g) + (h == g ? 0.0 : turn(h)) > kMostTurn;
+            const auto found = std::ranges::find(list, h);
+            if (!is_slit) {
+                ASSERT_NE(found, list.end()) << g << " and " << h;
+                const int via = groups.between[static_cast<std::size_t>(
+                    groups.beside.begin[static_cast<std::size_t>(g)] + (found - list.begin()))];
+                EXPECT_TRUE(via == g || via == h) << g << " and " << h << " by " << via;
+            }
         }
     }
 }
