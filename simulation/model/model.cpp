@@ -78,7 +78,7 @@ int carrying_iterations(const SolverSettings& solver) {
 
 /// What the scene's solver has to carry. Only xpbd feels what else hangs on a body: its constraints
 /// share by masses. Descent moves the heavy ones by their own equations, and light ones follow:
-/// seams of 1e4 times the mass left as little strain as those of equal ones (docs/stability.md).
+/// seams of 1e4 times the mass left as little strain as those of equal ones, where it was tried.
 std::vector<LoadPath> paths_of(const Scene& scene, const Gathered& all) {
     std::vector<LoadPath> paths = load_paths(all);
     if (scene.solver.method == Method::kXpbd) return paths;
