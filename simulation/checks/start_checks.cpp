@@ -93,7 +93,7 @@ double fall_in_substep(const Model& model) {
 
 /// Whether that much rounding shows. Shapes: rounded to 0.7 % of its edges, a sheet had 0.5 to 0.8
 /// of its motion. Motion, as rounding takes or gives a part of what gravity does in a substep: with
-/// 40 % of that, and 0.05 % of its edges, a block sank by 2 to 17 % too far (docs/stability.md).
+/// 40 % of that, and 0.05 % of its edges, a block sank by 2 to 17 % too far (docs/measurements.md).
 /// Edges have a say there, too: triangles as thin as that keep still.
 bool shows(double rounding, double shortest, const Model& model) {
     constexpr double kOfShapes = 0.0025, kOfEdges = 0.0002, kOfFall = 0.2;
@@ -106,7 +106,7 @@ bool shows(double rounding, double shortest, const Model& model) {
 /// does, motion gets lost, or comes from nowhere. A sheet of 1 m (scenes/sheet.toml, 2 iterations)
 /// came nearest to its reference with 128 substeps, in which rounding is a fifth of that way; it
 /// was 3 times as far away by 256, and 20 times by 512, by vbd, sosd and newton
-/// (docs/stability.md).
+/// (docs/measurements.md).
 void warn_of_short_steps(const Model& model, double reach, Warnings& warnings) {
     constexpr double kTooShort = 2.0, kLongEnough = 0.5;
     const double rounding = rounding_at(reach);

@@ -22,7 +22,7 @@ constexpr double kReturned = 0.25;  ///< of the farthest way: what has come back
 constexpr double kVisibleStrain = 1e-3;
 constexpr double kPartOfStrain = 0.5;
 // Measured on 55 scenes by four solvers, compared with steps that are solved: see
-// docs/stability.md.
+// docs/measurements.md.
 constexpr double kPush = 0.15;            ///< of gravity
 constexpr double kMisplaced = 0.15;       ///< of the way of a body's middle
 constexpr double kPlainlyVisible = 1e-3;  ///< likewise of a body's size
