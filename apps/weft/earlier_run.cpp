@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/error.h"
 
@@ -18,11 +19,15 @@ fs::path current(const fs::path& file) {
     return fs::exists(before) ? before : file;
 }
 
-void check_length(const fs::path& file, const char* what, std::size_t there, std::size_t needed) {
-    if (there >= needed) return;
-    throw UserError(
-        fmt::format("{}: --resume needs {} {}, and there are {}; --force starts the run anew",
-                    file.string(), needed, what, there));
+/// How much of a file counts that has `count` frames from the run's number `first` on, where those
+/// before `end` do. None may be missing in between.
+std::size_t count_before(std::size_t end, std::size_t first, std::size_t count, const fs::path& file,
+                         const char* option) {
+    if (first + count >= end) return end - std::min(first, end);
+    throw UserError(fmt::format(
+        "{}: --resume needs {} of the run, and it ends with {}; {} goes on without it, --force "
+        "starts the run anew",
+        file.string(), end, first + count, option));
 }
 
 void check_devices(const fs::path& file, const RunDescription& then, const RunDescription& now) {
@@ -38,27 +43,36 @@ void check_devices(const fs::path& file, const RunDescription& then, const RunDe
 }  // namespace
 
 EarlierRun::EarlierRun(const OutputFolder& folder, const Checkpoint& checkpoint,
-                       std::size_t geometry_steps, const RunDescription& run, bool with_trace)
-    : frames_(checkpoint.frame), geometry_steps_(geometry_steps), report_(checkpoint.report) {
-    if (const fs::path file = current(folder.trace()); with_trace && fs::exists(file)) {
-        trace_.emplace(file);
-        check_length(file, "frames", trace_->frames().size(), static_cast<std::size_t>(frames_));
-        check_devices(file, trace_->run(), run);
-    }
-    if (const fs::path file = current(folder.geometry()); fs::exists(file)) {
-        geometry_.emplace(file);
-        check_length(file, "steps", geometry_->steps(), geometry_steps_);
-    }
+                       const Outputs& outputs, const RunDescription& run)
+    : frames_(checkpoint.frame), report_(checkpoint.report) {
+    if (outputs.trace) open_trace(current(folder.trace()), run);
+    if (outputs.geometry) open_geometry(current(folder.geometry()), outputs);
+}
+
+void EarlierRun::open_trace(const fs::path& file, const RunDescription& run) {
+    if (!fs::exists(file)) return;
+    trace_.emplace(file);
+    check_devices(file, trace_->run(), run);
+    const auto& frames = trace_->frames();
+    const std::size_t first = frames.empty() ? 0 : frames.front().frame;
+    traced_ = count_before(static_cast<std::size_t>(frames_), first, frames.size(), file,
+                           "--no-trace");
+}
+
+void EarlierRun::open_geometry(const fs::path& file, const Outputs& outputs) {
+    if (!fs::exists(file)) return;
+    geometry_.emplace(file);
+    const double begin = geometry_->steps() == 0 ? 0.0 : geometry_->time(0);
+    const auto first = static_cast<std::size_t>(std::lround(begin / outputs.state_interval));
+    states_ = count_before(outputs.states, first, geometry_->steps(), file, "--no-geometry");
 }
 
 void EarlierRun::hand_over(TraceWriter& trace) const {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(frames_); ++i) {
-        trace.append(trace_->frame(i));
-    }
+    for (std::size_t i = 0; i < traced_; ++i) trace.append(trace_->frame(i));
 }
 
 void EarlierRun::hand_over(GeometryWriter& geometry) const {
-    for (std::size_t step = 0; step < geometry_steps_; ++step) {
+    for (std::size_t step = 0; step < states_; ++step) {
         geometry.append(geometry_->time(step), geometry_->positions(step));
     }
 }

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -64,22 +65,29 @@ OutputFolder::~OutputFolder() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void OutputFolder::claim(bool resume) {
+void OutputFolder::claim() {
+    open();
+    forget_before();
+    for (const fs::path& old : {checkpoint(), unfinished(checkpoint()), summary(), trace(),
+                                geometry(), GeometryWriter::xdmf_path(geometry())}) {
+        remove(old);
+    }
+}
+
+void OutputFolder::claim_to_go_on(const std::vector<fs::path>& outputs) {
+    open();
+    remove(unfinished(checkpoint()));
+    remove(summary());
+    for (const fs::path& file : {trace(), geometry()}) {
+        std::ranges::find(outputs, file) == outputs.end() ? bring_back(file) : set_aside(file);
+    }
+}
+
+void OutputFolder::open() {
     std::error_code error;
     fs::create_directories(path_, error);
     if (error) refuse(path_, "the folder cannot be made: " + error.message());
     lock();
-    if (resume) {
-        set_aside(trace());
-        set_aside(geometry());
-    } else {
-        remove(checkpoint());
-        forget_before();
-    }
-    for (const fs::path& old : {unfinished(checkpoint()), summary(), trace(), geometry(),
-                                GeometryWriter::xdmf_path(geometry())}) {
-        remove(old);
-    }
 }
 
 void OutputFolder::remove(const fs::path& old) const {
@@ -88,12 +96,23 @@ void OutputFolder::remove(const fs::path& old) const {
     if (error) refuse(path_, "'" + old.string() + "' cannot be replaced: " + error.message());
 }
 
-/// One that is there already counts: then an earlier resumption was killed while it took it over.
-void OutputFolder::set_aside(const fs::path& file) const {
+void OutputFolder::rename(const fs::path& from, const fs::path& to) const {
     std::error_code error;
-    if (fs::exists(before(file)) || !fs::exists(file)) return;
-    fs::rename(file, before(file), error);
-    if (error) refuse(path_, "'" + file.string() + "' cannot be renamed: " + error.message());
+    fs::rename(from, to, error);
+    if (error) refuse(path_, "'" + from.string() + "' cannot be renamed: " + error.message());
+}
+
+/// One that is aside already counts: then an earlier resumption was killed while it took it over.
+void OutputFolder::set_aside(const fs::path& file) const {
+    if (fs::exists(before(file))) {
+        remove(file);
+    } else if (fs::exists(file)) {
+        rename(file, before(file));
+    }
+}
+
+void OutputFolder::bring_back(const fs::path& file) const {
+    if (fs::exists(before(file))) rename(before(file), file);
 }
 
 void OutputFolder::forget_before() {

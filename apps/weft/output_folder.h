@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace weft {
 
@@ -15,10 +16,12 @@ public:
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// Makes the folder, and takes away the files of the run before; or, to go on from them, moves
-    /// its trace and geometry aside (before()). Throws UserError, also if another run that goes on
-    /// writes there.
-    void claim(bool resume);
+    /// Makes the folder, and takes away the files of the run before. Throws UserError, also if
+    /// another run writes there.
+    void claim();
+    /// To go on from the run before: moves those of its outputs (trace(), geometry()) aside
+    /// (before()) that are written anew. The others stay what they are. Throws UserError likewise.
+    void claim_to_go_on(const std::vector<std::filesystem::path>& outputs);
     /// Takes away what was moved aside.
     void forget_before();
     /// Where a file of the run before is while it is being taken over.
@@ -32,9 +35,12 @@ public:
     std::filesystem::path checkpoint() const { return path_ / "checkpoint"; }
 
 private:
+    void open();
     void lock();
     void remove(const std::filesystem::path& old) const;
+    void rename(const std::filesystem::path& from, const std::filesystem::path& to) const;
     void set_aside(const std::filesystem::path& file) const;
+    void bring_back(const std::filesystem::path& file) const;
 
     std::filesystem::path path_;
     bool replaces_unfinished_ = false;

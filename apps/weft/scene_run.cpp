@@ -87,7 +87,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     complete_origin();
     const RunDescription description = describe();
     if (options_.resume) find_earlier(description);
-    folder_.claim(earlier_.has_value());
+    claim_folder();
     summary_.emplace(description);
     if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
     if (!options_.no_geometry) open_geometry();
@@ -147,16 +147,27 @@ void SceneRun::find_earlier(const RunDescription& description) {
         throw UserError(fmt::format("--resume: {} frames are done already, and {} are asked for",
                                     checkpoint->frame, scene_.frames));
     }
-    earlier_.emplace(folder_, *checkpoint, geometry_steps(checkpoint->frame), description,
-                     !options_.no_trace);
+    const Outputs outputs = {.trace = !options_.no_trace,
+                             .geometry = !options_.no_geometry,
+                             .state_interval = scene_.output.every * scene_.dt,
+                             .states = geometry_steps(checkpoint->frame)};
+    earlier_.emplace(folder_, *checkpoint, outputs, description);
     simulation_->resume(*checkpoint);
+}
+
+void SceneRun::claim_folder() {
+    if (!earlier_) return folder_.claim();
+    std::vector<std::filesystem::path> outputs;
+    if (!options_.no_trace) outputs.push_back(folder_.trace());
+    if (!options_.no_geometry) outputs.push_back(folder_.geometry());
+    folder_.claim_to_go_on(outputs);
 }
 
 void SceneRun::take_over() {
     earlier_->hand_over(*summary_);
     clock_offset_ = summary_->end();
-    if (trace_ && earlier_->has_trace()) earlier_->hand_over(*trace_);
-    if (geometry_ && earlier_->has_geometry()) earlier_->hand_over(*geometry_);
+    if (trace_) earlier_->hand_over(*trace_);
+    if (geometry_) earlier_->hand_over(*geometry_);
     if (!options_.quiet) {
         std::cerr << fmt::format("weft: {}: going on after {} of {} frames\n", scene_.name,
                                  earlier_->frames(), scene_.frames);

@@ -36,6 +36,7 @@ private:
     void complete_origin();
     std::string async_origin() const;
     void find_earlier(const RunDescription& description);
+    void claim_folder();
     void take_over();
     void open_geometry();
     void close(FrameRecord& record);

@@ -1,5 +1,6 @@
 #include "simulation/output/geometry_reader.h"
 
+#include <algorithm>
 #include <string>
 
 #include "runtime/error.h"
@@ -22,6 +23,13 @@ void read_rows(hid_t dataset, hid_t type, hsize_t begin, hsize_t count, void* va
     const hdf5::Handle memory(H5Screate_simple(rank, size, nullptr), H5Sclose, "making a shape");
     hdf5::check(H5Dread(dataset, type, memory.id(), space.id(), H5P_DEFAULT, values),
                 "reading rows");
+}
+
+hsize_t row_count(hid_t dataset) {
+    const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "reading a shape");
+    hsize_t shape[2] = {0, 1};
+    H5Sget_simple_extent_dims(space.id(), shape, nullptr);
+    return shape[0];
 }
 
 }  // namespace
@@ -56,13 +64,15 @@ private:
         return {H5Dopen2(file_.id(), name, H5P_DEFAULT), H5Dclose, std::string("opening ") + name};
     }
 
+    /// A run may have been killed after it counted a step, and before it wrote its time.
     void read_times() {
         const hdf5::Handle steps(H5Gopen2(file_.id(), "VTKHDF/Steps", H5P_DEFAULT), H5Gclose,
                                  "opening VTKHDF/Steps");
-        times_.resize(static_cast<std::size_t>(hdf5::read_int_attribute(steps.id(), "NSteps")));
+        const auto counted = static_cast<hsize_t>(hdf5::read_int_attribute(steps.id(), "NSteps"));
+        const hdf5::Handle values = open_dataset("VTKHDF/Steps/Values");
+        times_.resize(std::min(counted, row_count(values.id())));
         if (times_.empty()) return;
-        read_rows(open_dataset("VTKHDF/Steps/Values").id(), H5T_NATIVE_DOUBLE, 0, times_.size(),
-                  times_.data());
+        read_rows(values.id(), H5T_NATIVE_DOUBLE, 0, times_.size(), times_.data());
     }
 
     template <class Action>

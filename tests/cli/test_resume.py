@@ -7,7 +7,7 @@ import h5py
 import numpy
 import pytest
 from recorded import two_devices
-from weft_program import SHEET, expect_error, start_weft, wait_for_frames, weft
+from weft_program import SHEET, expect_error, start_weft, wait_for_frames, wait_for_checkpoints, weft
 
 FRAMES = 40
 SCENE = SHEET.replace("frames = 3", f"frames = {FRAMES}").replace("substeps = 2", "substeps = 400")
@@ -23,10 +23,14 @@ def run(folder, *arguments, device="cpu/1"):
     return weft("run", "scene.toml", "--device", device, "--quiet", *arguments, cwd=folder)
 
 
-def interrupt(folder, number, frames):
+def interrupt(folder, number, frames, *arguments):
     """A run that ends early, by a signal."""
-    process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", cwd=folder)
-    wait_for_frames(folder / "out/sheet/trace.h5", frames, process)
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", *arguments,
+                         cwd=folder)
+    if "--no-trace" in arguments:
+        wait_for_checkpoints(folder / "out/sheet/checkpoint", frames, process)
+    else:
+        wait_for_frames(folder / "out/sheet/trace.h5", frames, process)
     process.send_signal(number)
     process.communicate(timeout=30)
 
@@ -152,6 +156,41 @@ def test_without_a_trace_the_summary_is_of_the_whole_run(folder, device, rows):
     assert len(whole["devices"]) == rows  # the one that was left has one, too
     assert (sum(d["busy_s"] for d in whole["devices"]) >
             sum(d["busy_s"] for d in before["devices"]) > 0)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL], ids=lambda n: n.name)
+def test_a_run_that_began_without_outputs_goes_on_with_them(folder, number):
+    """They begin where it went on, and go on from there themselves."""
+    interrupt(folder, number, 2, "--no-trace", "--no-geometry")
+    interrupt(folder, number, 4, "--resume")
+    assert run(folder, "--resume").returncode == 0
+    assert run(folder, "--out", "out/whole").returncode == 0
+    assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]
+    with h5py.File(folder / "out/sheet/trace.h5") as trace:
+        frames = list(trace["frames"]["frame"])
+        assert 0 < frames[0] < FRAMES
+        assert frames == list(range(frames[0], FRAMES))
+        assert set(trace["executions"]["frame"]) == set(frames)
+    points, times = positions(folder / "out/sheet/frames.vtkhdf")
+    all_points, all_times = positions(folder / "out/whole/frames.vtkhdf")
+    assert 0 < len(times) < len(all_times)
+    assert numpy.array_equal(times, all_times[-len(times):])
+    assert numpy.array_equal(points, all_points[-len(points):])
+
+
+def test_outputs_that_a_run_goes_on_without_are_left(folder):
+    interrupt(folder, signal.SIGTERM, 6)
+    trace, geometry = (folder / "out/sheet" / name for name in ["trace.h5", "frames.vtkhdf"])
+    before = trace.read_bytes(), geometry.read_bytes()
+    interrupt(folder, signal.SIGTERM, 2, "--resume", "--no-trace", "--no-geometry")
+    assert (trace.read_bytes(), geometry.read_bytes()) == before
+    expect_error(run(folder, "--resume"), 2, "trace.h5", "--resume needs", "--no-trace goes on")
+    expect_error(run(folder, "--resume", "--no-trace"), 2, "frames.vtkhdf",
+                 "--no-geometry goes on")
+    assert run(folder, "--resume", "--no-trace", "--no-geometry").returncode == 0
+    assert (trace.read_bytes(), geometry.read_bytes()) == before
+    assert summary_of(folder)["frames"] == FRAMES
+    assert set(summary_of(folder)["files"]) == {"summary"}
 
 
 def test_another_scene_cannot_go_on(folder):

@@ -92,20 +92,38 @@ def expect_error(result, code, *parts):
         assert part in errors[0]
 
 
-def wait_for_frames(trace, count, process, limit=60.0):
-    """Returns when the trace of a running program has so many frames."""
+def wait_until(condition, process, complaint, limit=60.0):
+    """Returns when the condition holds while a program is running."""
     end = time.monotonic() + limit
     while time.monotonic() < end:
         assert process.poll() is None, process.stderr.read()
+        if condition():
+            return
+        time.sleep(0.005)
+    process.kill()
+    pytest.fail(complaint)
+
+
+def wait_for_frames(trace, count, process):
+    """Returns when the trace of a running program has so many frames."""
+    def has_frames():
         try:
             with h5py.File(trace, swmr=True) as file:
-                if len(file["frames"]) >= count:
-                    return
+                return len(file["frames"]) >= count
         except (OSError, KeyError):
-            pass  # not there yet, or not ready for readers
-        time.sleep(0.05)
-    process.kill()
-    pytest.fail("the run wrote no frames")
+            return False  # not there yet, or not ready for readers
+    wait_until(has_frames, process, "the run wrote no frames")
+
+
+def wait_for_checkpoints(checkpoint, count, process):
+    """Returns when a running program has been seen to write so many, one after the other."""
+    seen = set()
+
+    def has_written():
+        if checkpoint.exists():
+            seen.add(checkpoint.stat().st_mtime_ns)
+        return len(seen) >= count
+    wait_until(has_written, process, "the run wrote no checkpoints")
 
 
 def opencl_devices():

@@ -102,6 +102,27 @@ TEST_F(Geometry, EveryCompressionReadsBackTheSame) {
     }
 }
 
+/// As a run leaves it that is killed after it counted a step, and before it wrote its time.
+TEST_F(Geometry, StepsWithoutTimesAreNotRead) {
+    {
+        GeometryWriter writer(path_, triangles_, 4, bodies_, 3);
+        for (int i = 0; i < 3; ++i) writer.append(i, std::vector<float>(12, 0.5F));
+        writer.finish();
+    }
+    {
+        const hdf5::Session session;
+        const hdf5::Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose,
+                                "open");
+        const hdf5::Handle times(H5Dopen2(file.id(), "VTKHDF/Steps/Values", H5P_DEFAULT), H5Dclose,
+                                 "open");
+        const hsize_t written[] = {2};
+        hdf5::check(H5Dset_extent(times.id(), written), "shorten");
+    }
+    const GeometryReader reader(path_);
+    EXPECT_EQ(reader.steps(), 2U);
+    EXPECT_EQ(reader.time(1), 1.0);
+}
+
 TEST_F(Geometry, ReplacesOldFiles) {
     const std::vector<float> positions(12, 0.5F);
     for (int steps_now : {3, 1}) {
