@@ -289,12 +289,7 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
     Run run(*this, step, plan);
     std::vector<std::vector<TimeSpan>> copy_times(streams_.size());
     for (int i = 0; i < instances; ++i) {
-        try {
-            run.submit(first_instance + i);
-        } catch (const RunError& error) {
-            drain();
-            throw DeviceLost(ActiveDevice{run.at()}, error.what());
-        }
+        guard([&] { return run.at(); }, [&] { run.submit(first_instance + i); });
         // Last the one whose core submits: it takes that core.
         for (std::size_t d = 0; d < streams_.size(); ++d) {
             if (d != submitter) on(d, [&] { streams_[d]->flush(); });
@@ -315,11 +310,20 @@ RunTimes Executor::run(const Step& step, const scheduler::Plan& plan, int instan
 
 template <class Call>
 void Executor::on(std::size_t device, Call call) {
+    guard([&] { return static_cast<int>(device); }, call);
+}
+
+/// Whatever fails, the streams are left idle. device: that is lost by an error of its own.
+template <class Device, class Call>
+void Executor::guard(Device device, Call call) {
     try {
         call();
     } catch (const RunError& error) {
         drain();
-        throw DeviceLost(ActiveDevice{static_cast<int>(device)}, error.what());
+        throw DeviceLost(ActiveDevice{device()}, error.what());
+    } catch (...) {
+        drain();
+        throw;
     }
 }
 

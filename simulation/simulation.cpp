@@ -245,12 +245,16 @@ FrameRecord Simulation::advance(const FrameDetails& details) {
     frame.sim_time = time() + model_->scene.dt;
     frame.start = frame.end = clock();
     begin_frame();
+    bool has_lost_state = false;
     while (true) {
         try {
+            if (has_lost_state) go_back_to_start();
+            has_lost_state = false;
             if (advance_from_start(details, frame)) return frame;
             end_part(frame, frame.execute_time);
         } catch (const DeviceLost& lost) {
             go_on_without(lost);
+            has_lost_state = true;
             end_part(frame, frame.execute_time);
         }
     }
@@ -276,6 +280,12 @@ void Simulation::go_on_without(const DeviceLost& lost) {
     run_->go_on_without(lost, frame_);
 }
 
+/// Also of what is no part of the state: contact's candidates are those of some substep or other.
+void Simulation::go_back_to_start() {
+    restore(*start_);
+    hand_over_placed();
+}
+
 /// All substeps of the frame. It runs again from its start as long as a table was too small for it;
 /// once more if bodies went where contact did not look for them; and once more if what is faster
 /// than was reckoned with might have gone through an obstacle, with that obstacle swept.
@@ -286,8 +296,7 @@ RunTimes Simulation::run_frame(const Step& step, const scheduler::Plan& plan) {
         if (times && (is_swept_anew || !model_->outran_obstacles())) return std::move(*times);
         is_swept_anew = is_swept_anew || times.has_value();
         if (!times) ++redone_;
-        restore(*start_);
-        hand_over_placed();
+        go_back_to_start();
     }
 }
 

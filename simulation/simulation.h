@@ -161,6 +161,7 @@ private:
     void begin_frame();
     void end_part(FrameRecord& frame, double& part) const;
     void go_on_without(const DeviceLost& lost);
+    void go_back_to_start();
     bool accepts(const Step& step, bool may_repeat, FrameRecord& frame);
     std::optional<StepEstimate> estimate();
     bool iterates_more(double error);

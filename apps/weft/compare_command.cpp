@@ -13,6 +13,7 @@
 #include "apps/weft/comparison.h"
 #include "apps/weft/output_file.h"
 #include "runtime/device_list.h"
+#include "runtime/io/json_text.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/solver_choice.h"
 
@@ -69,7 +70,7 @@ Comparison compare(const CompareOptions& options, const std::vector<std::string>
 void write_json(const std::filesystem::path& folder, const nlohmann::ordered_json& json) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    write_output(folder / "compare.json", json.dump(2) + '\n');
+    write_output(folder / "compare.json", json_text(json) + '\n');
 }
 
 void warn_of_different_states(const Comparison& comparison) {
@@ -106,7 +107,7 @@ void run_comparison(CompareOptions options) {
                                : std::filesystem::path("out") / scene.name,
                json);
     if (options.run.json)
-        std::cout << json.dump(2) << std::endl;
+        std::cout << json_text(json) << std::endl;
     else
         std::cout << to_text(comparison) << std::flush;
     warn_of_different_states(comparison);

@@ -9,6 +9,7 @@
 #include "apps/weft/device_costs.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/opencl/opencl_device.h"
 
 namespace weft {
@@ -105,7 +106,7 @@ void list_devices(const DevicesOptions& options) {
         json["devices"] = nlohmann::ordered_json::array();
         for (const Row& row : rows) json["devices"].push_back(row_json(row));
         json["hybrid"] = hybrid_devices();
-        std::cout << json.dump(2) << '\n';
+        std::cout << json_text(json) << '\n';
         return;
     }
     for (const Row& row : rows) std::cout << row_text(row) << '\n';

@@ -17,6 +17,7 @@
 #include "apps/weft/studies/trajectory_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "simulation/scene/method.h"
 
 namespace weft {
@@ -26,7 +27,7 @@ namespace {
 template <class Study>
 void print_study(const ErrorOptions& options, const Study& study, const std::string& files) {
     if (options.run.json)
-        std::cout << to_json(study).dump(2) << std::endl;
+        std::cout << json_text(to_json(study)) << std::endl;
     else
         std::cout << to_text(study) << '\n' << files << std::endl;
 }
@@ -50,7 +51,7 @@ std::filesystem::path make_folder(const ErrorOptions& options) {
 template <class Study>
 void run_study(const ErrorOptions& options, const Study& study,
                const std::filesystem::path& folder) {
-    write_output(folder / "study.json", to_part(study).dump() + '\n');
+    write_output(folder / "study.json", json_text(to_part(study), -1) + '\n');
     print_study(options, study, write_study(folder, study));
 }
 

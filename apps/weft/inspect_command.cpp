@@ -8,6 +8,7 @@
 
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
+#include "runtime/io/json_text.h"
 #include "simulation/inspect.h"
 #include "simulation/scene/auto_method.h"
 
@@ -132,7 +133,7 @@ void inspect_scene(const RunOptions& options) {
     if (!options.quiet) print_warnings(warnings);
     const Inspection inspection = inspect(model, *solver);
     if (options.json)
-        std::cout << to_json(inspection, model.scene).dump(2) << '\n';
+        std::cout << json_text(to_json(inspection, model.scene)) << '\n';
     else
         std::cout << to_text(inspection, model.scene);
 }

@@ -12,6 +12,7 @@
 #include <regex>
 
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "simulation/scene/near_miss.h"
 
 namespace weft {
@@ -68,7 +69,7 @@ const JsonFile::Json& JsonFile::member(const Json& object, const std::string& ke
 }
 
 std::string JsonFile::shown(const Json& value) {
-    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string text = json_text(value, -1);
     return text.size() <= 40 ? text : text.substr(0, 37) + "...";
 }
 

@@ -10,6 +10,7 @@
 
 #include "apps/weft/trace_support.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/trace/recorded_graph.h"
 
 namespace weft {
@@ -200,7 +201,7 @@ PerfettoText::PerfettoText(const RunDescription& run)
 
 void PerfettoText::add(std::string& text, const ordered_json& event) {
     if (!std::exchange(first_, false)) text += ",\n";
-    text += event.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    text += json_text(event, -1);
 }
 
 void PerfettoText::name_track(std::string& text, int track, const std::string& name) {
@@ -229,8 +230,7 @@ int PerfettoText::copy_track(std::string& text, std::int64_t start, std::int64_t
 
 std::string PerfettoText::head() {
     std::string text = "{\"displayTimeUnit\": \"ms\",\n\"otherData\": ";
-    text += ordered_json{{"scene", run_.scene_name}, {"command", run_.command}}.dump(
-        -1, ' ', false, ordered_json::error_handler_t::replace);
+    text += json_text(ordered_json{{"scene", run_.scene_name}, {"command", run_.command}}, -1);
     text += ",\n\"traceEvents\": [\n";
     ordered_json process = event("M", "process_name", kFrameTrack);
     process["args"] = {{"name", "weft " + run_.scene_name}};

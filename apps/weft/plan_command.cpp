@@ -23,6 +23,7 @@
 #include "apps/weft/studies/machine_study.h"
 #include "apps/weft/trace_graph.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "scheduler/optimal.h"
 #include "scheduler/planner.h"
 #include "scheduler/portfolio.h"
@@ -127,7 +128,7 @@ void print_json(const GraphFile& file, const TimedPlan& result, const TraceGraph
                                  {"start", own.start},
                                  {"end", own.end}});
     }
-    std::cout << json.dump(2) << '\n';
+    std::cout << json_text(json) << '\n';
 }
 
 std::string time_text(const GraphFile& file, double time) {
@@ -175,7 +176,7 @@ void print_comparison(const GraphFile& file, const PlanOptions& options, const T
                           {"rows", ordered_json::array()}};
         if (trace != nullptr) json.update(frame_json(*trace));
         for (const TimedPlan& row : rows) json["rows"].push_back(summary_json(row));
-        std::cout << json.dump(2) << '\n';
+        std::cout << json_text(json) << '\n';
         return;
     }
     const Plan& first = rows.front().plan;
@@ -247,7 +248,7 @@ void map_machines(const PlanOptions& options) {
     write_output(folder / "machines.csv", to_csv(study));
     const std::string pictures = write_pictures(folder, "machines", MachinePicture(study));
     if (options.json) {
-        std::cout << to_json(study).dump(2) << '\n';
+        std::cout << json_text(to_json(study)) << '\n';
     } else {
         std::cout << to_text(study)
                   << fmt::format("\n{}: machines.csv, {}\n", folder.empty() ? "." : folder.string(),
@@ -265,7 +266,7 @@ void plan_file(const PlanOptions& options) {
     TraceGraph trace = read_trace_graph(
         {options.graph, options.frame, options.costs, options.strips, options.pinned});
     if (options.print_costs) {
-        std::cout << to_json(trace.costs, trace.kinds).dump(2) << '\n';
+        std::cout << json_text(to_json(trace.costs, trace.kinds)) << '\n';
         return;
     }
     plan_graph(trace.file, options, &trace);

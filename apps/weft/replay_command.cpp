@@ -11,6 +11,7 @@
 #include "apps/weft/progress.h"
 #include "apps/weft/recorded_scene.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/trace/trace_reader.h"
 #include "simulation/replay.h"
 
@@ -170,7 +171,7 @@ void print_json(const Player& player, const Outcome& result) {
         json["devices"].push_back({{"name", d.name}, {"kind", d.kind}, {"units", d.units}});
     }
     if (result.first_wrong) json["first_wrong_frame"] = *result.first_wrong;
-    std::cout << json.dump(2) << std::endl;
+    std::cout << json_text(json) << std::endl;
 }
 
 void print_text(const Player& player, const Outcome& result) {

@@ -7,6 +7,7 @@
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_run.h"
+#include "runtime/io/json_text.h"
 
 namespace weft {
 
@@ -18,7 +19,7 @@ void run_scene(const RunOptions& options, bool keeps_checkpoint) {
     run.advance_all(notice);
     const RunSummary summary = run.finish();
     if (options.json)
-        std::cout << to_json(summary).dump(2) << std::endl;
+        std::cout << json_text(to_json(summary)) << std::endl;
     else
         std::cout << to_text(summary) << std::flush;
     if (summary.finished) return;

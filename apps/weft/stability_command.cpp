@@ -17,6 +17,7 @@
 #include "apps/weft/studies/study_files.h"
 #include "apps/weft/studies/sweep_text.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "simulation/scene/near_miss.h"
 
 namespace weft {
@@ -49,7 +50,7 @@ std::vector<stability::Row> run_suite(const StudyOptions& options) {
 /// study.json is for whoever joins the parts of a study.
 template <class Study>
 std::string write_files(const std::filesystem::path& folder, const Study& study) {
-    write_output(make_folder(folder) / "study.json", to_part(study).dump() + '\n');
+    write_output(make_folder(folder) / "study.json", json_text(to_part(study), -1) + '\n');
     return write_study(folder, study);
 }
 
@@ -58,7 +59,7 @@ void show_suite(const StudyOptions& options) {
     const auto rows = run_suite(options);
     const std::string files = write_files(folder, rows);
     if (options.run.json)
-        std::cout << to_json(rows).dump(2) << std::endl;
+        std::cout << json_text(to_json(rows)) << std::endl;
     else
         std::cout << to_text(rows) << files << std::endl;
     const auto silent = std::ranges::count_if(
@@ -71,7 +72,7 @@ void show_suite(const StudyOptions& options) {
 void show_advice(const StudyOptions& options) {
     const auto advice = stability::advise(options.run, options.solvers, options.time);
     if (options.run.json)
-        std::cout << to_json(advice).dump(2) << std::endl;
+        std::cout << json_text(to_json(advice)) << std::endl;
     else
         std::cout << to_text(advice) << std::flush;
     if (options.run.out) write_files(*options.run.out, advice);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/weft/commands.h"
+#include "runtime/io/json_text.h"
 #include "runtime/trace/trace_reader.h"
 #include "simulation/output/summary.h"
 
@@ -51,7 +52,7 @@ void print_json(const TraceReader& trace, const RunSummary& summary) {
                                  {"per_item_s", cost.per_item},
                                  {"samples", cost.samples}});
     }
-    std::cout << json.dump(2) << '\n';
+    std::cout << json_text(json) << '\n';
 }
 
 std::string costs_text(const TraceReader& trace) {

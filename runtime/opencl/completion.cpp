@@ -12,6 +12,14 @@ void CL_CALLBACK run_callback(cl_event, cl_int, void* data) {
 
 }  // namespace
 
+void set_status(cl::UserEvent& event, cl_int status) noexcept {
+    try {
+        event.setStatus(status);
+    } catch (const cl::Error&) {
+        // The context failed; whoever owns its streams reports that when they finish.
+    }
+}
+
 void OpenClCompletion::wait() {
     try {
         event_.wait();
@@ -36,7 +44,7 @@ std::vector<cl::Event> events_for(const cl::Context& context, std::span<Completi
             continue;
         }
         cl::UserEvent passed_on(context);
-        wait->when_done([passed_on]() mutable { passed_on.setStatus(CL_COMPLETE); });
+        wait->when_done([passed_on]() mutable { set_status(passed_on, CL_COMPLETE); });
         events.push_back(passed_on);
     }
     return events;

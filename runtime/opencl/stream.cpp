@@ -65,7 +65,7 @@ struct MappedCopy {
 void CL_CALLBACK copy_mapped(cl_event, cl_int status, void* data) {
     const std::unique_ptr<MappedCopy> copy(static_cast<MappedCopy*>(data));
     if (status == CL_COMPLETE) std::memcpy(copy->to, copy->from, copy->bytes);
-    copy->done.setStatus(status);
+    set_status(copy->done, status);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ OpenClStream::~OpenClStream() {
 }
 
 OpenClStream::Memory OpenClStream::bring(const BufferStorage& buffer) {
-    return {make_memory(target_, buffer), buffer.generation(), buffer.memory()};
+    return {buffer.memory(), make_memory(target_, buffer), buffer.generation()};
 }
 
 const cl::Buffer& OpenClStream::memory_of(const BufferStorage& buffer) {
@@ -274,8 +274,12 @@ void OpenClStream::note_first(const cl::Event& command, double enqueued) {
 }
 
 void OpenClStream::flush() {
-    copies_.flush();
-    queue_.flush();
+    try {
+        copies_.flush();
+        queue_.flush();
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name, error);
+    }
 }
 
 TimeSpan OpenClStream::time_of(const Commands& commands, double offset) const {

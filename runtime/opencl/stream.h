@@ -64,9 +64,9 @@ private:
     };
     /// A buffer as the device has it.
     struct Memory {
+        std::shared_ptr<const void> home;  ///< which the driver may use in place: goes last
         cl::Buffer buffer;
-        int generation = 0;                ///< of the host's
-        std::shared_ptr<const void> home;  ///< which the driver may use in place
+        int generation = 0;  ///< of the host's
     };
     enum class Direction { kToDevice, kToHost };
 

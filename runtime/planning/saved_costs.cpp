@@ -7,6 +7,7 @@
 
 #include "kernels/sources.h"
 #include "runtime/io/cache_folder.h"
+#include "runtime/io/json_text.h"
 
 namespace weft {
 
@@ -150,7 +151,7 @@ void SavedCosts::write() const {
                              {"spread", fit.spread},
                              {"frames", fit.frames}};
     }
-    write_cached(path_, json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n');
+    write_cached(path_, json_text(json, 1) + '\n');
 }
 
 }  // namespace weft

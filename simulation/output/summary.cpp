@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/io/whole_file.h"
 
 namespace weft {
@@ -411,7 +412,7 @@ std::string to_text(const RunSummary& summary) {
 }
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
-    write_whole_file(path, to_json(summary).dump(2) + '\n', " the summary");
+    write_whole_file(path, json_text(to_json(summary)) + '\n', " the summary");
 }
 
 }  // namespace weft

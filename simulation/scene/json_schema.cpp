@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/io/json_text.h"
 #include "simulation/scene/keys.h"
 #include "simulation/scene/read_scene.h"
 
@@ -118,7 +119,7 @@ std::string scene_json_schema() {
     Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                 {"title", "Weft scene"}};
     schema.update(table_schema(scene_keys()));
-    return schema.dump(2);
+    return json_text(schema);
 }
 
 }  // namespace weft

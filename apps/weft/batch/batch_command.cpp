@@ -17,6 +17,7 @@
 #include "apps/weft/commands.h"
 #include "apps/weft/program.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 
 namespace weft {
 
@@ -67,7 +68,7 @@ void make(const BatchOptions& options) {
     const fs::path folder = batch::sweep_folder(sweep.name, options.out);
     const batch::Made made = batch::make_sweep(sweep, folder);
     if (options.json)
-        std::cout << to_json(made).dump(2) << std::endl;
+        std::cout << json_text(to_json(made)) << std::endl;
     else
         std::cout << to_text(made, options.sweep) << std::flush;
 }
@@ -112,7 +113,7 @@ void run_indices(const BatchOptions& options, const fs::path& folder) {
     const auto outcomes = batch::drive(
         folder, manifest, indices,
         {options.again, options.quiet || indices.size() == 1, WEFT_VERSION}, run_program_with);
-    if (options.json) std::cout << to_json(outcomes).dump(2) << std::endl;
+    if (options.json) std::cout << json_text(to_json(outcomes)) << std::endl;
     conclude(outcomes, manifest.name);
 }
 
@@ -124,7 +125,7 @@ void list(const BatchOptions& options, const fs::path& folder) {
         chosen = batch::with_states(all, batch::parse_states(*options.state, "--state"));
     }
     if (options.json)
-        std::cout << to_json(chosen).dump(2) << std::endl;
+        std::cout << json_text(to_json(chosen)) << std::endl;
     else if (options.ranges)
         std::cout << batch::to_ranges(batch::indices_of(chosen)) << std::endl;
     else if (options.commands)
@@ -142,7 +143,7 @@ void collect(const BatchOptions& options, const fs::path& folder) {
         std::cerr << "weft: warning: " << note << '\n';
     }
     if (options.json)
-        std::cout << to_json(collected).dump(2) << std::endl;
+        std::cout << json_text(to_json(collected)) << std::endl;
     else
         std::cout << to_text(collected) << std::flush;
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/io/whole_file.h"
 
 namespace weft::batch {
@@ -94,8 +95,8 @@ std::vector<std::size_t> Manifest::current() const {
 }
 
 std::string to_jsonl(const Manifest& manifest) {
-    std::string text = head_json(manifest).dump() + '\n';
-    for (const Run& run : manifest.runs) text += run_json(run).dump() + '\n';
+    std::string text = json_text(head_json(manifest), -1) + '\n';
+    for (const Run& run : manifest.runs) text += json_text(run_json(run), -1) + '\n';
     return text;
 }
 

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/io/whole_file.h"
 #include "simulation/scene/near_miss.h"
 
@@ -134,8 +135,7 @@ Status RunFolder::status_under_lock() const {
 }
 
 void RunFolder::write(const Status& status) const {
-    write_whole_file(status_path(path_),
-                     to_json(status).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+    write_whole_file(status_path(path_), json_text(to_json(status)) + '\n');
 }
 
 bool RunFolder::has_finished_summary() const {

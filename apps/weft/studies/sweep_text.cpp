@@ -6,6 +6,7 @@
 
 #include "apps/weft/batch/make_sweep.h"
 #include "apps/weft/output_file.h"
+#include "runtime/io/json_text.h"
 
 namespace weft {
 
@@ -50,7 +51,7 @@ void make_study_sweep(const std::string& text, const std::filesystem::path& fold
     const batch::Made made = batch::make_sweep(batch::parse_sweep(text, path), folder);
     write_output(path, text);
     if (as_json)
-        std::cout << to_json(made).dump(2) << std::endl;
+        std::cout << json_text(to_json(made)) << std::endl;
     else
         std::cout << to_text(made, path) << std::flush;
 }

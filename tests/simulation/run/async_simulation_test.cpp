@@ -32,7 +32,7 @@ TEST(AsyncRuns, ALostDeviceIsLeftOutAndTheRunCanBeReplayed) {
     options.calibrate = false;
     Devices devices;
     devices.push_back(make_cpu_device(1, {}));
-    devices.push_back(make_failing_device(make_cpu_device(1, {}), 2));
+    devices.push_back(make_failing_device(make_cpu_device(1, {}), {2}));
     Simulation run(scene, std::move(devices), options, warnings);
     const RunDescription description = run.describe();
     SimulationOptions on_one;

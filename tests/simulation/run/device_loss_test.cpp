@@ -20,8 +20,16 @@ constexpr int kFrames = 6;
 std::vector<std::unique_ptr<Device>> devices(const std::vector<int>& batches) {
     std::vector<std::unique_ptr<Device>> list;
     for (const int count : batches) {
-        list.push_back(make_failing_device(make_cpu_device(1, {}), count));
+        list.push_back(make_failing_device(make_cpu_device(1, {}), {count}));
     }
+    return list;
+}
+
+/// Two of them, of which the second one fails.
+std::vector<std::unique_ptr<Device>> second_of_two(Failure failure) {
+    std::vector<std::unique_ptr<Device>> list;
+    list.push_back(make_cpu_device(1, {}));
+    list.push_back(make_failing_device(make_cpu_device(1, {}), failure));
     return list;
 }
 
@@ -104,6 +112,22 @@ TEST_F(DeviceLoss, WithASolverThatHasAMemory) {
     Simulation disturbed(scene, devices({kNever, kCalibration + 2}), options, warnings);
     EXPECT_EQ(hash_after(disturbed, kFrames), hash_after(undisturbed, kFrames));
     EXPECT_EQ(disturbed.losses().size(), 1U);
+}
+
+/// What contact knows from substep to substep is of the frame's middle then.
+TEST_F(DeviceLoss, InTheMiddleOfAFrameWithContact) {
+    const Scene scene = parse_scene(kRubbing, "rubbing.toml");
+    SimulationOptions options;
+    options.plan = PlanKind::kExact;
+    Warnings warnings;
+    Simulation undisturbed(scene, devices({kNever, kNever}), options, warnings);
+    const std::string expected = hash_after(undisturbed, kFrames);
+    for (int tasks = 0; tasks < 60; tasks += 4) {
+        Simulation disturbed(scene, second_of_two({kCalibration + 2, tasks}), options, warnings);
+        EXPECT_EQ(hash_after(disturbed, kFrames), expected) << "lost behind " << tasks << " tasks";
+        ASSERT_EQ(disturbed.losses().size(), 1U);
+        EXPECT_NE(disturbed.losses()[0].why.find("clEnqueueNDRangeKernel"), std::string::npos);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, DeviceLoss, testing::Values(0, 1));

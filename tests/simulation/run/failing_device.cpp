@@ -1,5 +1,7 @@
 #include "tests/simulation/run/failing_device.h"
 
+#include <string>
+
 #include "runtime/error.h"
 
 namespace weft::test {
@@ -7,16 +9,24 @@ namespace {
 
 class FailingStream final : public DeviceStream {
 public:
-    FailingStream(std::unique_ptr<DeviceStream> inner, int& batches)
-        : inner_(std::move(inner)), batches_(batches) {}
+    FailingStream(std::unique_ptr<DeviceStream> inner, Failure& failure)
+        : inner_(std::move(inner)), failure_(failure) {}
 
-    void begin(double epoch) override { inner_->begin(epoch); }
+    void begin(double epoch) override {
+        inner_->begin(epoch);
+        submitted_ = 0;
+    }
     void rebind() override { inner_->rebind(); }
-    Completion* submit(const Submission& submission) override { return inner_->submit(submission); }
+    Completion* submit(const Submission& submission) override {
+        const bool fails = failure_.batches <= 0 && failure_.tasks >= 0;
+        if (fails && submitted_ == failure_.tasks) fail("clEnqueueNDRangeKernel");
+        ++submitted_;
+        return inner_->submit(submission);
+    }
     void flush() override { inner_->flush(); }
     void finish() override {
         inner_->finish();
-        if (--batches_ < 0) throw RunError("clFinish failed: CL_OUT_OF_RESOURCES (-5)");
+        if (--failure_.batches < 0 && failure_.tasks < 0) fail("clFinish");
     }
     void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) override {
         inner_->times(tasks, copies);
@@ -31,29 +41,34 @@ public:
     }
 
 private:
+    [[noreturn]] static void fail(const std::string& call) {
+        throw RunError(call + " failed: CL_OUT_OF_RESOURCES (-5)");
+    }
+
     std::unique_ptr<DeviceStream> inner_;
-    int& batches_;
+    Failure& failure_;
+    int submitted_ = 0;
 };
 
 class FailingDevice final : public Device {
 public:
-    FailingDevice(std::unique_ptr<Device> inner, int batches)
-        : inner_(std::move(inner)), batches_(batches) {}
+    FailingDevice(std::unique_ptr<Device> inner, Failure failure)
+        : inner_(std::move(inner)), failure_(failure) {}
 
     const DeviceInfo& info() const override { return inner_->info(); }
     std::unique_ptr<DeviceStream> open_stream(std::span<const TaskBody* const> bodies) override {
-        return std::make_unique<FailingStream>(inner_->open_stream(bodies), batches_);
+        return std::make_unique<FailingStream>(inner_->open_stream(bodies), failure_);
     }
 
 private:
     std::unique_ptr<Device> inner_;
-    int batches_;
+    Failure failure_;
 };
 
 }  // namespace
 
-std::unique_ptr<Device> make_failing_device(std::unique_ptr<Device> inner, int batches) {
-    return std::make_unique<FailingDevice>(std::move(inner), batches);
+std::unique_ptr<Device> make_failing_device(std::unique_ptr<Device> inner, Failure failure) {
+    return std::make_unique<FailingDevice>(std::move(inner), failure);
 }
 
 }  // namespace weft::test

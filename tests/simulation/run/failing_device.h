@@ -6,8 +6,15 @@
 
 namespace weft::test {
 
-/// A device that works like the one it wraps, until it has finished so many batches of work: from
-/// then on every call fails, as with a GPU that was unplugged.
-std::unique_ptr<Device> make_failing_device(std::unique_ptr<Device> inner, int batches);
+/// When a device fails: in the batch of work behind so many, once it has taken so many of its
+/// tasks, which it still does; or, with none (-1), when it has done all of them.
+struct Failure {
+    int batches = 0;
+    int tasks = -1;
+};
+
+/// A device that works like the one it wraps until it fails; from then on every call does, as with
+/// a GPU that was unplugged.
+std::unique_ptr<Device> make_failing_device(std::unique_ptr<Device> inner, Failure failure);
 
 }  // namespace weft::test

@@ -149,7 +149,7 @@ TEST_F(GrowingTables, WhereADeviceIsLost) {
     const std::string expected = hash_of(cpus(1), kPlenty);
     for (int batches = 6; batches < 16; ++batches) {
         Devices devices = cpus(1);
-        devices.push_back(make_failing_device(make_cpu_device(1, {}), batches));
+        devices.push_back(make_failing_device(make_cpu_device(1, {}), {batches}));
         EXPECT_EQ(hash_of(std::move(devices), 0), expected) << batches;
     }
 }
