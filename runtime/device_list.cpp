@@ -312,6 +312,14 @@ private:
     bool pins_ = false;  ///< some OpenCL device is the CPU itself
 };
 
+/// Planners keep sets of devices in one word.
+void refuse_too_many(std::size_t count, const std::string& list) {
+    constexpr std::size_t kMost = 32;
+    if (count <= kMost) return;
+    throw UserError("device list (--device): '" + list + "': " + std::to_string(count) +
+                    " devices, and the most are " + std::to_string(kMost));
+}
+
 }  // namespace
 
 /// OpenCL has the first cores, and TBB what is left. Drivers on the CPU make their threads when
@@ -335,6 +343,7 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
     for (const Team& team : teams) {
         Opener(team, static_cast<int>(&team - teams.data()), all_cores, options).open_into(devices);
     }
+    refuse_too_many(devices.size(), list);
     return devices;
 }
 

@@ -56,6 +56,11 @@ void RowTable::place_rows() {
         const int room = room_[static_cast<std::size_t>(strip)];
         const int first = items_.item(strip);
         const int end = items_.item(strip + 1);
+        const long next = start + static_cast<long>(slices_of(end - first)) * kStride * room;
+        if (next > kMostEntries) {
+            throw RunError("the table '" + name_ + "' would need more than " +
+                           std::to_string(kMostEntries) + " entries");
+        }
         entry_begin_[static_cast<std::size_t>(strip)] = static_cast<int>(start);
         for (int item = first; item < end; ++item) {
             const int slice = (item - first) / kStride;
@@ -63,11 +68,7 @@ void RowTable::place_rows() {
             rows_[i] = static_cast<int>(start) + slice * kStride * room + (item - first) % kStride;
             rows_[i + static_cast<std::size_t>(item_count_)] = room;
         }
-        start += static_cast<long>(slices_of(end - first)) * kStride * room;
-        if (start > kMostEntries) {
-            throw RunError("the table '" + name_ + "' would need more than " +
-                           std::to_string(kMostEntries) + " entries");
-        }
+        start = next;
     }
     entry_begin_[static_cast<std::size_t>(items_.strip_count)] = static_cast<int>(start);
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "runtime/error.h"
+#include "runtime/io/system_call.h"
 
 namespace weft {
 
@@ -30,7 +31,8 @@ std::string answer_of(const std::function<std::string()>& work) {
     const std::string answer = answer_of(work);
     std::size_t sent = 0;
     while (sent < answer.size()) {
-        const ssize_t count = ::write(out, answer.data() + sent, answer.size() - sent);
+        const ssize_t count = until_uninterrupted(
+            [&] { return ::write(out, answer.data() + sent, answer.size() - sent); });
         if (count <= 0) break;  // whoever asked is gone
         sent += static_cast<std::size_t>(count);
     }
@@ -41,10 +43,11 @@ std::string answer_of(const std::function<std::string()>& work) {
 std::string read_all(int in) {
     std::string text;
     char block[4096];
-    for (ssize_t count; (count = ::read(in, block, sizeof block)) > 0;) {
+    while (true) {
+        const auto count = until_uninterrupted([&] { return ::read(in, block, sizeof block); });
+        if (count <= 0) return text;
         text.append(block, static_cast<std::size_t>(count));
     }
-    return text;
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ std::string in_child_process(const std::string& what, const std::function<std::s
     ::close(pipe[1]);
     const std::string answer = read_all(pipe[0]);
     ::close(pipe[0]);
-    ::waitpid(process, nullptr, 0);
+    until_uninterrupted([&] { return ::waitpid(process, nullptr, 0); });
     if (answer.empty()) throw RunError(what + ": the process that ran it was killed");
     if (answer[0] == kUserError) throw UserError(answer.substr(1));
     if (answer[0] == kRunError) throw RunError(what + ": " + answer.substr(1));

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "runtime/error.h"
+#include "runtime/io/system_call.h"
 #include "simulation/diagnostics.h"
 #include "simulation/simulation.h"
 
@@ -93,7 +94,7 @@ FrameWorker::~FrameWorker() {
     [[maybe_unused]] const ssize_t sent = ::write(to_worker_, &kEnd, 1);
     ::close(to_worker_);
     ::close(from_worker_);
-    ::waitpid(process_, nullptr, 0);
+    until_uninterrupted([&] { return ::waitpid(process_, nullptr, 0); });
 }
 
 void FrameWorker::serve(const RunOptions& options, int in, int out) {

@@ -70,8 +70,16 @@ std::string named(const TextPairs& pairs, const std::string& name) {
 }
 
 SolverChoice recorded_choice(const TextPairs& settings) {
-    return {method_named(named(settings, "method")), std::stoi(named(settings, "iterations")),
-            std::stoi(named(settings, "substeps")), named(settings, "solver_choice")};
+    const auto number = [&](const char* name) {
+        try {
+            return std::stoi(named(settings, name));
+        } catch (const std::logic_error&) {
+            throw UserError(std::string("the checkpoint is damaged: ") + name +
+                            " is no number; --force starts the run anew");
+        }
+    };
+    return {method_named(named(settings, "method")), number("iterations"), number("substeps"),
+            named(settings, "solver_choice")};
 }
 
 }  // namespace

@@ -4,13 +4,13 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
 #include "runtime/error.h"
+#include "runtime/io/system_call.h"
 #include "runtime/io/whole_file.h"
 
 namespace weft {
@@ -53,8 +53,7 @@ CacheLock::CacheLock(const fs::path& path) {
     std::error_code ignored;
     fs::create_directories(path.parent_path(), ignored);
     file_ = ::open((path.string() + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    while (file_ >= 0 && ::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
-    }
+    if (file_ >= 0) until_uninterrupted([&] { return ::flock(file_, LOCK_EX); });
 }
 
 CacheLock::~CacheLock() {

@@ -49,11 +49,17 @@ bool rounds_correctly(const cl::Device& device) {
                                                    CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
 }
 
+bool is_pocl(const cl::Device& device) {
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    return name_of(platform) == "Portable Computing Language";
+}
+
 OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {
     OpenClTarget target;
     target.device = device;
     target.context = cl::Context(device);
     target.strict = options.strict_math;
+    target.is_pocl = is_pocl(device);
     const bool is_cpu = is_type(device, CL_DEVICE_TYPE_CPU);
     const bool per_colour = options.per_colour.value_or(!is_cpu);
     target.style = per_colour ? EntryStyle::kPerColour : EntryStyle::kPerStrip;

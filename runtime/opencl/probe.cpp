@@ -14,6 +14,8 @@
 #include <sstream>
 #include <string>
 
+#include "runtime/io/system_call.h"
+
 namespace weft {
 
 namespace {
@@ -75,8 +77,8 @@ std::string listen(int from, pid_t child) {
     std::string text;
     char part[512];
     pollfd ready{from, POLLIN, 0};
-    while (::poll(&ready, 1, kPatience) > 0) {
-        const ssize_t count = ::read(from, part, sizeof part);
+    while (until_uninterrupted([&] { return ::poll(&ready, 1, kPatience); }) > 0) {
+        const auto count = until_uninterrupted([&] { return ::read(from, part, sizeof part); });
         if (count <= 0) return text;
         text.append(part, static_cast<std::size_t>(count));
     }
@@ -102,7 +104,7 @@ std::optional<std::string> ask_child(const std::vector<OpenClPlatform>& unusable
     std::optional<std::string> text;
     if (child > 0) text = listen(ends[0], child);
     ::close(ends[0]);
-    if (child > 0) ::waitpid(child, &status, 0);
+    if (child > 0) until_uninterrupted([&] { return ::waitpid(child, &status, 0); });
     return text;
 }
 

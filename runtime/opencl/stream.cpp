@@ -91,6 +91,7 @@ OpenClStream::~OpenClStream() {
     } catch (const cl::Error&) {
         // finish() has reported it, or somebody is unwinding from it.
     }
+    if (!target_.is_pocl) return;
     Kept kept{target_.device, target_.context, queue_, copies_, {}};
     if (!running_.empty()) kept.events.push_back(running_.back().last);
     if (!copied_.empty()) kept.events.push_back(copied_.back().last);

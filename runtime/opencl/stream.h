@@ -18,6 +18,7 @@ struct OpenClTarget {
     DeviceInfo info;
     EntryStyle style = EntryStyle::kPerStrip;
     bool strict = true;
+    bool is_pocl = false;  ///< whose streams are kept: see stream.cpp
 };
 
 /// An in-order queue for tasks, and one beside it for copies.

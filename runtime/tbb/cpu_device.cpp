@@ -144,17 +144,22 @@ struct Job {
     CpuCompletion completion;
 };
 
+/// Keeps threads on an arena's cores while they are in it. TBB's workers go from arena to arena.
 class PinObserver final : public tbb::task_scheduler_observer {
 public:
     PinObserver(tbb::task_arena& arena, const std::vector<int>& cores)
-        : tbb::task_scheduler_observer(arena), cores_(cores) {
+        : tbb::task_scheduler_observer(arena), cores_(cores), all_(usable_cores()) {
         if (!cores_.empty()) observe(true);
     }
     ~PinObserver() override { observe(false); }
     void on_scheduler_entry(bool) override { pin_thread(cores_); }
+    void on_scheduler_exit(bool is_worker) override {
+        if (is_worker) pin_thread(all_);
+    }
 
 private:
     std::vector<int> cores_;
+    std::vector<int> all_;  ///< that the thread which makes the arena may use
 };
 
 /// A thread of its own runs the stream's jobs in order, inside the arena.
@@ -196,9 +201,10 @@ public:
     }
 
     Completion* submit(const Submission& s) override {
+        BoundBody& body = find(s.task->body);
         const std::lock_guard lock(mutex_);  // the worker reads jobs_ while it grows
         Job& job = jobs_.emplace_back();
-        job.body = &find(s.task->body);
+        job.body = &body;
         WEFT_ASSERT(
             std::ranges::all_of(job.body->launches, &BoundLaunch::is_bound_to_present_buffers));
         job.task = s.task;

@@ -42,6 +42,23 @@ void write_curve(hid_t parent, const std::string& name, const ErrorCurve& curve)
     write_column(group.id(), "truncated", H5T_NATIVE_INT, curve, &ErrorPoint::truncated);
 }
 
+void write_reference(hid_t parent, const ErrorStudy& study) {
+    const hdf5::Handle reference = hdf5::create_group(parent, "reference");
+    const Minimum& minimum = study.minimum;
+    write_number(reference.id(), "start_energy", minimum.start_energy);
+    write_number(reference.id(), "energy", minimum.energy);
+    write_number(reference.id(), "relative_gradient", minimum.certificate.relative_gradient);
+    write_number(reference.id(), "relative_gap", minimum.certificate.relative_gap);
+    write_number(reference.id(), "rounding_floor", study.rounding_floor);
+}
+
+void write_curves(hid_t parent, const ErrorStudy& study) {
+    const hdf5::Handle curves = hdf5::create_group(parent, "curves");
+    for (std::size_t c = 0; c < study.curves.size(); ++c) {
+        write_curve(curves.id(), fmt::format("{:03}", c), study.curves[c]);
+    }
+}
+
 void write_study(const std::string& path, const ErrorStudy& study) {
     const hdf5::Session session;
     hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
@@ -53,18 +70,9 @@ void write_study(const std::string& path, const ErrorStudy& study) {
     const std::array<int, 1> frame = {study.frame};
     hdf5::write_int_attribute(file.id(), "frame", frame);
 
-    const hdf5::Handle reference = hdf5::create_group(file.id(), "reference");
-    const Minimum& minimum = study.minimum;
-    write_number(reference.id(), "start_energy", minimum.start_energy);
-    write_number(reference.id(), "energy", minimum.energy);
-    write_number(reference.id(), "relative_gradient", minimum.certificate.relative_gradient);
-    write_number(reference.id(), "relative_gap", minimum.certificate.relative_gap);
-    write_number(reference.id(), "rounding_floor", study.rounding_floor);
-
-    const hdf5::Handle curves = hdf5::create_group(file.id(), "curves");
-    for (std::size_t c = 0; c < study.curves.size(); ++c) {
-        write_curve(curves.id(), fmt::format("{:03}", c), study.curves[c]);
-    }
+    write_reference(file.id(), study);
+    write_curves(file.id(), study);
+    file.close("close the file");
 }
 
 }  // namespace

@@ -47,24 +47,32 @@ void write_curve(hid_t parent, const std::string& name, const TrajectoryCurve& c
     write_column<int>(id, "pareto", H5T_NATIVE_INT, curve, &TrajectoryPoint::on_front);
 }
 
+void write_reference(hid_t parent, const TrajectoryStudy& study) {
+    const hdf5::Handle reference = hdf5::create_group(parent, "reference");
+    hdf5::write_text_attribute(reference.id(), "by", study.reference_by);
+    const std::array<int, 1> substeps = {study.reference_substeps};
+    hdf5::write_int_attribute(reference.id(), "substeps", substeps);
+    write_number(reference.id(), "doubt_m", study.doubt);
+}
+
+void write_curves(hid_t parent, const TrajectoryStudy& study) {
+    const hdf5::Handle curves = hdf5::create_group(parent, "curves");
+    for (std::size_t c = 0; c < study.curves.size(); ++c) {
+        write_curve(curves.id(), fmt::format("{:03}", c), study.curves[c]);
+    }
+}
+
 void write_study(const std::string& path, const TrajectoryStudy& study) {
     const hdf5::Session session;
-    const hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
+    hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
     hdf5::write_text_attribute(file.id(), "format", "weft-trajectory");
     hdf5::write_text_attribute(file.id(), "scene", study.scene);
     const std::array<int, 1> frames = {study.frames};
     hdf5::write_int_attribute(file.id(), "frames", frames);
 
-    const hdf5::Handle reference = hdf5::create_group(file.id(), "reference");
-    hdf5::write_text_attribute(reference.id(), "by", study.reference_by);
-    const std::array<int, 1> substeps = {study.reference_substeps};
-    hdf5::write_int_attribute(reference.id(), "substeps", substeps);
-    write_number(reference.id(), "doubt_m", study.doubt);
-
-    const hdf5::Handle curves = hdf5::create_group(file.id(), "curves");
-    for (std::size_t c = 0; c < study.curves.size(); ++c) {
-        write_curve(curves.id(), fmt::format("{:03}", c), study.curves[c]);
-    }
+    write_reference(file.id(), study);
+    write_curves(file.id(), study);
+    file.close("close the file");
 }
 
 }  // namespace
