@@ -21,8 +21,8 @@ fs::path current(const fs::path& file) {
 
 /// How much of a file counts that has `count` frames from the run's number `first` on, where those
 /// before `end` do. None may be missing in between.
-std::size_t count_before(std::size_t end, std::size_t first, std::size_t count, const fs::path& file,
-                         const char* option) {
+std::size_t count_before(std::size_t end, std::size_t first, std::size_t count,
+                         const fs::path& file, const char* option) {
     if (first + count >= end) return end - std::min(first, end);
     throw UserError(fmt::format(
         "{}: --resume needs {} of the run, and it ends with {}; {} goes on without it, --force "
@@ -55,8 +55,8 @@ void EarlierRun::open_trace(const fs::path& file, const RunDescription& run) {
     check_devices(file, trace_->run(), run);
     const auto& frames = trace_->frames();
     const std::size_t first = frames.empty() ? 0 : frames.front().frame;
-    traced_ = count_before(static_cast<std::size_t>(frames_), first, frames.size(), file,
-                           "--no-trace");
+    traced_ =
+        count_before(static_cast<std::size_t>(frames_), first, frames.size(), file, "--no-trace");
 }
 
 void EarlierRun::open_geometry(const fs::path& file, const Outputs& outputs) {
