@@ -10,7 +10,7 @@ import time
 import h5py
 import pytest
 from weft_program import SHEET as FREE_SHEET
-from weft_program import WEFT, expect_error, start_weft, weft, weft_json
+from weft_program import TOUCHING, WEFT, expect_error, start_weft, weft, weft_json
 
 # Held at a corner, so that its stiffness matters.
 SHEET = FREE_SHEET + 'pins = { corners = ["x-z-"] }\n'
@@ -108,6 +108,42 @@ def test_from_a_sweep_to_its_results(folder):
         assert file["runs/state"].asstr()[2] == "finished"
         assert list(file["runs/index"]) == [0, 1, 2, 3]
         assert len(file["traces/2/frames"]) == 3 and set(file["traces"]) == {"0", "1", "2"}
+
+
+def test_warnings_are_seen_wherever_a_sweep_is_looked_at(folder):
+    """Too few iterations for the mesh are warned of by the run that has them."""
+    make(folder, SWEEP.replace("cloth[0].stretch.stiffness", "solver.iterations")
+         .replace("[1e3, 1e4]", "[1, 200]").replace('["auto", "single"]', '["auto"]'))
+    said = batch(folder, "sweep.toml", "--index", "all")
+    assert said.returncode == 0 and said.stderr.count("warnings: 1") == 1
+    listed = batch(folder, "sweep.toml", "--list").stdout
+    assert "2 finished (1 warned)" in listed and listed.count("warning: 'sheet' is too fine") == 1
+    runs = weft_json("batch", "sweep.toml", "--list", cwd=folder)
+    assert len(runs[0]["warnings"]) == 1 and "warnings" not in runs[1]
+    assert "2 finished (1 warned)" in batch(folder, "sweep.toml", "--watch").stderr
+
+    assert "2 finished (1 warned)" in batch(folder, "sweep.toml", "--collect").stdout
+    assert weft_json("batch", "sweep.toml", "--collect", cwd=folder)["warned"] == 1
+    rows = results(folder)
+    assert [row["warnings"] for row in rows] == ["1", "0"]
+    assert "too fine" in rows[0]["first_warning"] and rows[1]["first_warning"] == ""
+
+
+def test_numbers_in_tables_of_the_summary_are_collected(folder):
+    (folder / "scene.toml").write_text(TOUCHING)
+    make(folder, """
+sweep = { name = "s", scene = "scene.toml" }
+run = { device = "cpu/1", geometry = false }
+axis = [{ key = "scene.frames", values = [8] }]
+""")
+    assert batch(folder, "sweep.toml", "--index", "all").returncode == 0
+    assert batch(folder, "sweep.toml", "--collect").returncode == 0
+    summary = json.loads((run_folder(folder, 0) / "summary.json").read_text())
+    with h5py.File(folder / "out/s/results.h5") as file:
+        for table, key in [("relative_error_estimate", "median"), ("contact", "pairs"),
+                           ("relative_error_estimate", "worst"), ("energies", "total")]:
+            assert float(results(folder)[0][f"{table}.{key}"]) == summary[table][key]
+            assert file[f"runs/{table}.{key}"][0] == summary[table][key]
 
 
 def test_a_finished_run_is_done_at_once(folder):
@@ -353,7 +389,7 @@ def test_watches_until_all_is_settled(folder):
     assert batch(folder, "sweep.toml", "--index", "all", "--quiet").returncode == 1
     said = process.communicate(timeout=60)[1]
     assert process.returncode == 0
-    assert said.count("failed: ") == 2 and "2 finished, 2 failed" in said
+    assert said.count("failed: ") == 2 and "2 finished (2 warned), 2 failed" in said
 
 
 @pytest.fixture

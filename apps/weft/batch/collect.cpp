@@ -29,11 +29,12 @@ std::string to_text(const Collected& collected) {
 nlohmann::ordered_json to_json(const Collected& collected) {
     Value counts = Value::object();
     for (const State state : all_states()) {
-        const auto at = collected.counts.find(state);
-        counts[name_of(state)] = at == collected.counts.end() ? 0 : at->second;
+        const auto at = collected.counts.states.find(state);
+        counts[name_of(state)] = at == collected.counts.states.end() ? 0 : at->second;
     }
     return {{"name", collected.name},
             {"counts", counts},
+            {"warned", collected.counts.warned},
             {"differences", collected.differences},
             {"files", collected.files}};
 }

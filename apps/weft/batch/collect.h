@@ -11,7 +11,7 @@ namespace weft::batch {
 /// What --collect has found and written.
 struct Collected {
     std::string name;
-    std::map<State, std::size_t> counts;
+    Counts counts;
     std::vector<std::string> files;
     std::vector<std::string> differences;  ///< of hashes that should be equal
 };

@@ -62,7 +62,7 @@ private:
         }
         // With the lock in our hands, "running" means that whoever said so was killed.
         Status status = files.status_under_lock();
-        if (status.state == State::kFinished) return {run.index, 0, ""};
+        if (status.state == State::kFinished) return {run.index, 0, "", status.warnings.size()};
         if (status.state == State::kFailed && !options_.again) {
             return {run.index, status.exit_code.value_or(kFailed),
                     status.why + " (before; --again starts it anew)"};
@@ -109,6 +109,7 @@ private:
         status.state = State::kRunning;
         status.exit_code.reset();
         status.why.clear();
+        status.warnings.clear();
         ++status.attempts;
         status.host = host_name();
         status.cores = static_cast<int>(usable_cores().size());
@@ -137,16 +138,18 @@ private:
         status.state = verdict.state;
         status.exit_code = verdict.exit_code;
         status.why = verdict.why;
+        status.warnings = files.warnings();
         files.write(status);
-        return {run.index, verdict.exit_code, verdict.why};
+        return {run.index, verdict.exit_code, verdict.why, status.warnings.size()};
     }
 
     void say(const Outcome& outcome, std::size_t done, std::size_t count) const {
         if (options_.quiet && outcome.exit_code == 0) return;
         const Run& run = manifest_.runs[outcome.index];
+        std::string text = outcome.exit_code == 0 ? "finished" : outcome.why;
+        if (outcome.warnings > 0) text += fmt::format("; warnings: {}", outcome.warnings);
         std::cerr << fmt::format("weft: {}: run {} ({}): {} [{}/{}]\n", manifest_.name, run.index,
-                                 run.id, outcome.exit_code == 0 ? "finished" : outcome.why, done,
-                                 count)
+                                 run.id, text, done, count)
                   << std::flush;
     }
 

@@ -31,6 +31,7 @@ struct Outcome {
     std::size_t index = 0;
     int exit_code = 0;  ///< 0 finished, 1 failed, 2 wrong request, kGoesOn
     std::string why;    ///< it is not 0
+    std::size_t warnings = 0;
 };
 
 /// The program itself, given its arguments, in this process.

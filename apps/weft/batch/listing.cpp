@@ -32,16 +32,21 @@ std::vector<std::size_t> indices_of(const std::vector<Listed>& runs) {
     return indices;
 }
 
-std::map<State, std::size_t> count_states(const std::vector<Listed>& runs) {
-    std::map<State, std::size_t> counts;
-    for (const Listed& listed : runs) ++counts[listed.status.state];
+Counts count_states(const std::vector<Listed>& runs) {
+    Counts counts;
+    for (const auto& [run, status] : runs) {
+        ++counts.states[status.state];
+        counts.warned += status.state == State::kFinished && !status.warnings.empty();
+    }
     return counts;
 }
 
-std::string counts_text(const std::map<State, std::size_t>& counts) {
+std::string counts_text(const Counts& counts) {
     std::string text;
-    for (auto it = counts.rbegin(); it != counts.rend(); ++it) {
+    for (auto it = counts.states.rbegin(); it != counts.states.rend(); ++it) {
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", it->second, name_of(it->first));
+        if (it->first == State::kFinished && counts.warned > 0)
+            text += fmt::format(" ({} warned)", counts.warned);
     }
     return text.empty() ? "no runs" : text;
 }
@@ -54,6 +59,21 @@ std::string values_text(const Run& run) {
     return text;
 }
 
+namespace {
+
+/// Below the line of a run: why it failed, and the first of its warnings.
+std::string remarks(const Status& status) {
+    std::string text;
+    if (status.state == State::kFailed) text += fmt::format("{:>6}  {}\n", "", status.why);
+    if (status.warnings.empty()) return text;
+    text += fmt::format("{:>6}  warning: {}", "", status.warnings.front());
+    if (status.warnings.size() > 1)
+        text += fmt::format(" (and {} more)", status.warnings.size() - 1);
+    return text + '\n';
+}
+
+}  // namespace
+
 std::string to_table(const std::vector<Listed>& runs) {
     std::string text = fmt::format("{:>6}  {:<12}  {:<8}  {:>8}  {}\n", "run", "id", "state",
                                    "attempts", "values");
@@ -61,7 +81,7 @@ std::string to_table(const std::vector<Listed>& runs) {
         text += fmt::format("{:>6}  {}  {:<8}  {:>8}  {}{}\n", run->index, run->id,
                             name_of(status.state), status.attempts, values_text(*run),
                             run->dropped ? " (dropped)" : "");
-        if (status.state == State::kFailed) text += fmt::format("{:>6}  {}\n", "", status.why);
+        text += remarks(status);
     }
     return text;
 }
@@ -75,6 +95,7 @@ nlohmann::ordered_json to_json(const std::vector<Listed>& runs) {
         entry["exit_code"] = status.exit_code ? Value(*status.exit_code) : Value(nullptr);
         entry["attempts"] = status.attempts;
         if (!status.why.empty()) entry["why"] = status.why;
+        if (!status.warnings.empty()) entry["warnings"] = status.warnings;
         if (run->dropped) entry["dropped"] = true;
         entry["values"] = std::move(values);
         list.push_back(std::move(entry));

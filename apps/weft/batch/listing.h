@@ -22,9 +22,15 @@ std::vector<Listed> list_runs(const std::filesystem::path& folder, const Manifes
 std::vector<Listed> with_states(std::vector<Listed> runs, const std::vector<State>& states);
 
 std::vector<std::size_t> indices_of(const std::vector<Listed>& runs);
-std::map<State, std::size_t> count_states(const std::vector<Listed>& runs);
-/// "3 finished, 1 failed", without those that there are none of.
-std::string counts_text(const std::map<State, std::size_t>& counts);
+
+/// How many runs have come how far.
+struct Counts {
+    std::map<State, std::size_t> states;
+    std::size_t warned = 0;  ///< of the finished ones, those with warnings
+};
+Counts count_states(const std::vector<Listed>& runs);
+/// "3 finished (1 warned), 1 failed", without those that there are none of.
+std::string counts_text(const Counts& counts);
 
 std::string to_table(const std::vector<Listed>& runs);
 nlohmann::ordered_json to_json(const std::vector<Listed>& runs);

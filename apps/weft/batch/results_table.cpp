@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
 
@@ -24,11 +23,20 @@ const std::vector<std::string>& first_results() {
     return names;
 }
 
-Value read_summary(const RunFolder& folder) {
-    std::ifstream file(folder.summary(), std::ios::binary);
-    if (!file) return Value::object();
-    Value summary = Value::parse(file, nullptr, /*allow_exceptions=*/false);
-    return summary.is_object() ? summary : Value::object();
+using Numbers = std::vector<std::pair<std::string, Value>>;
+
+void add_numbers(const Value& object, const std::string& prefix, Numbers& numbers) {
+    for (const auto& [key, value] : object.items()) {
+        if (value.is_number()) numbers.emplace_back(prefix + key, value);
+        if (value.is_object()) add_numbers(value, prefix + key + '.', numbers);
+    }
+}
+
+/// Of a summary, those in tables by dotted names: contact.pairs.
+Numbers numbers_of(const Value& summary) {
+    Numbers numbers;
+    add_numbers(summary, "", numbers);
+    return numbers;
 }
 
 Value member(const Value& object, const std::string& key) {
@@ -62,16 +70,14 @@ std::vector<std::string> columns_of(const std::vector<Listed>& runs,
     for (const Listed& listed : runs) {
         for (const auto& [key, value] : listed.run->values) columns.add(key);
     }
-    for (const char* name : {"state", "exit_code", "attempts"}) columns.add(name);
+    for (const char* name : {"state", "exit_code", "attempts", "warnings"}) columns.add(name);
     for (const std::string& name : first_results()) columns.add(name);
     for (const char* name : {"wall_s", "host", "cores", "devices", "weft", "job"})
         columns.add(name);
     for (const Value& summary : summaries) {
-        for (const auto& [key, value] : summary.items()) {
-            if (value.is_number()) columns.add(key);
-        }
+        for (const auto& [name, number] : numbers_of(summary)) columns.add(name);
     }
-    columns.add("why");
+    for (const char* name : {"first_warning", "why"}) columns.add(name);
     return columns.take();
 }
 
@@ -79,15 +85,15 @@ std::vector<std::string> columns_of(const std::vector<Listed>& runs,
 std::map<std::string, Value> cells_of(const Listed& listed, const Value& summary) {
     const auto& [run, status] = listed;
     std::map<std::string, Value> cells;
-    for (const auto& [key, value] : summary.items()) {
-        if (value.is_number()) cells[key] = value;
-    }
+    for (const auto& [name, number] : numbers_of(summary)) cells[name] = number;
     cells[kHash] = member(summary, kHash);
     cells["index"] = run->index;
     cells["id"] = run->id;
     cells["state"] = name_of(status.state);
     cells["exit_code"] = status.exit_code ? Value(*status.exit_code) : Value(nullptr);
     cells["attempts"] = status.attempts;
+    cells["warnings"] = status.warnings.size();
+    cells["first_warning"] = status.warnings.empty() ? "" : status.warnings.front();
     cells["wall_s"] = status.wall;
     cells["host"] = status.host;
     cells["cores"] = status.cores;
@@ -125,7 +131,7 @@ std::string origin_of(const Run& run) {
 ResultsTable results_table(const std::filesystem::path& folder, const std::vector<Listed>& runs) {
     std::vector<Value> summaries;
     for (const Listed& listed : runs) {
-        summaries.push_back(read_summary(RunFolder(run_path(folder, *listed.run))));
+        summaries.push_back(RunFolder(run_path(folder, *listed.run)).read_summary());
     }
     ResultsTable table{columns_of(runs, summaries), {}};
     for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "runtime/error.h"
@@ -60,6 +59,7 @@ Json to_json(const Status& status) {
     json["start"] = status.start;
     json["end"] = status.end > 0.0 ? Json(status.end) : Json(nullptr);
     json["wall_s"] = status.wall;
+    if (!status.warnings.empty()) json["warnings"] = status.warnings;
     return json;
 }
 
@@ -77,6 +77,7 @@ Status from_json(const Json& json, const std::string& path) {
     status.start = json.at("start");
     status.end = json.at("end").is_null() ? 0.0 : json["end"].get<double>();
     status.wall = json.at("wall_s");
+    status.warnings = json.value("warnings", std::vector<std::string>{});
     return status;
 }
 
@@ -138,11 +139,17 @@ void RunFolder::write(const Status& status) const {
     write_whole_file(status_path(path_), json_text(to_json(status)) + '\n');
 }
 
-bool RunFolder::has_finished_summary() const {
+Json RunFolder::read_summary() const {
     std::ifstream file(summary(), std::ios::binary);
-    if (!file) return false;
-    const Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
-    return json.is_object() && json.value("finished", false);
+    if (!file) return Json::object();
+    Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+    return json.is_object() ? json : Json::object();
+}
+
+bool RunFolder::has_finished_summary() const { return read_summary().value("finished", false); }
+
+std::vector<std::string> RunFolder::warnings() const {
+    return read_summary().value("warnings", std::vector<std::string>{});
 }
 
 FolderLock::~FolderLock() {

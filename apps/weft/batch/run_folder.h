@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,13 +31,14 @@ struct Status {
     std::string why;               ///< it stopped or failed
     int attempts = 0;
     std::string host;
-    int cores = 0;       ///< that the process might use
-    std::string engine;  ///< "slurm", ...; empty: none that is known
-    std::string job;     ///< the engine's name for it
-    std::string weft;    ///< version
-    double start = 0.0;  ///< of the last attempt [s since 1970]
-    double end = 0.0;    ///< 0: goes on
-    double wall = 0.0;   ///< all attempts that have ended [s]
+    int cores = 0;                        ///< that the process might use
+    std::string engine;                   ///< "slurm", ...; empty: none that is known
+    std::string job;                      ///< the engine's name for it
+    std::string weft;                     ///< version
+    double start = 0.0;                   ///< of the last attempt [s since 1970]
+    double end = 0.0;                     ///< 0: goes on
+    double wall = 0.0;                    ///< all attempts that have ended [s]
+    std::vector<std::string> warnings{};  ///< as summary.json has them at the end of an attempt
 };
 
 /// The folder of one run: a normal output folder, with status.json, log.txt and the lock.
@@ -56,8 +58,12 @@ public:
     Status status_under_lock() const;
     /// As a whole or not at all. Throws RunError.
     void write(const Status& status) const;
+    /// What the run has left; an empty object where it is missing, or damaged.
+    nlohmann::ordered_json read_summary() const;
     /// Whether a run in it has come to its end.
     bool has_finished_summary() const;
+    /// Of its summary.
+    std::vector<std::string> warnings() const;
 
 private:
     std::filesystem::path path_;
