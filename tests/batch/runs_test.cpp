@@ -1,5 +1,6 @@
 #include "apps/weft/batch/runs.h"
 
+#include <algorithm>
 #include <set>
 
 #include "sweep_text.h"
@@ -16,12 +17,12 @@ protected:
 
     std::vector<batch::Run> make(const std::string& text) const {
         const std::string path = write("s.toml", kHead + text);
-        return runs_of(read_sweep(path), folder_ / "out/s",
-                       [](const std::string&, const std::vector<std::string>& options) {
-                           if (!options.empty() && options.front() == "--nonsense") {
-                               throw UserError("unknown option");
-                           }
-                       });
+        const CommandLine command_line{
+            {{"device", false}, {"plan", false}, {"strips", false}, {"geometry", true}},
+            [](const std::vector<std::string>& options) {
+                if (std::ranges::find(options, "cpux") != options.end()) throw UserError("no cpux");
+            }};
+        return runs_of(read_sweep(path), folder_ / "out/s", command_line);
     }
 
     std::string refused(const std::string& text) const {
@@ -87,10 +88,24 @@ TEST_F(Runs, EveryPointIsReadAsAScene) {
 }
 
 TEST_F(Runs, OptionsAreChecked) {
-    const std::string wrong = refused("run = { nonsense = 1 }\n");
+    // At the option that is wrong, though its message does not name it.
+    const std::string wrong = refused("run = { device = \"cpux\", plan = \"auto\" }\n");
     EXPECT_NE(wrong.find("s.toml:2:9"), std::string::npos) << wrong;
+    EXPECT_NE(refused("run = { geometry = 1 }\n").find("expected true or false"),
+              std::string::npos);
+    EXPECT_NE(refused("run = { device = false }\n").find("expected a value"), std::string::npos);
     EXPECT_NE(refused("run = { frames = 1 }\n").find("scene.frames"), std::string::npos);
     EXPECT_NE(refused("run = { out = \"x\" }\n").find("folders"), std::string::npos);
+}
+
+TEST_F(Runs, MisspeltOptionsAreFoundThoughTheyAreFalse) {
+    for (const char* value : {"false", "true", "1"}) {
+        const std::string wrong =
+            refused(std::string("run = { plan = \"auto\", geometri = ") + value + " }\n");
+        EXPECT_NE(wrong.find("s.toml:2:24: unknown key 'run.geometri'"), std::string::npos)
+            << wrong;
+        EXPECT_NE(wrong.find("'run.geometry'"), std::string::npos) << wrong;
+    }
 }
 
 TEST_F(Runs, ScenesMayBeAnAxis) {

@@ -182,8 +182,10 @@ def test_sweeps_keep_the_costs_that_they_measure(folder):
     (('"single"', '"sinlge"'), ["sweep.toml:9:", "single"]),
     (("stiffness", "stifness"), ["sweep.toml:6:", "stiffness"]),
     (("[1e3, 1e4]", "[1e3, -1]"), ["sweep.toml:6:16", "-1"]),
-    (('device = "cpu/1"', 'device = "cpux"'), ["sweep.toml", "cpux"]),
-    (('device = "cpu/1"', 'devcie = "cpu/1"'), ["sweep.toml:3:9", "--device"]),
+    (('device = "cpu/1"', 'device = "cpux"'), ["sweep.toml:3:9: ", "cpux"]),
+    (('device = "cpu/1"', 'devcie = "cpu/1"'), ["sweep.toml:3:9", "run.device"]),
+    (("geometry", "geometri"), ["sweep.toml:3:27", "run.geometri", "run.geometry"]),
+    (("geometry", "foo"), ["sweep.toml:3:27", "run.foo"]),
     (("scene.toml", "scne.toml"), ["scne.toml"]),
     (("values = [1e3", "valeus = [1e3"), ["sweep.toml:6:1", "values"]),
 ])

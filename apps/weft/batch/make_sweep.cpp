@@ -18,15 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As the program itself would read them; but nothing is done.
-void check_options(const std::string& command, const std::vector<std::string>& options) {
+/// The program's commands as it reads them itself; but nothing is done.
+struct Reader {
     CLI::App app{"", "weft"};
     RunOptions run;
     ErrorOptions study;
     stability::StudyOptions suite;
-    add_run_options(*app.add_subcommand("run"), run);
-    add_error_options(*app.add_subcommand("error"), study);
-    add_stability_options(*app.add_subcommand("stability"), suite);
+
+    Reader() {
+        add_run_options(*app.add_subcommand("run"), run);
+        add_error_options(*app.add_subcommand("error"), study);
+        add_stability_options(*app.add_subcommand("stability"), suite);
+    }
+};
+
+void check_options(const std::string& command, const std::vector<std::string>& options) {
+    Reader reader;
+    CLI::App& app = reader.app;
     std::vector<std::string> words{command, "scene.toml"};
     words.insert(words.end(), options.begin(), options.end());
     std::ranges::reverse(words);  // as CLI11 wants them
@@ -35,12 +43,35 @@ void check_options(const std::string& command, const std::vector<std::string>& o
     } catch (const CLI::ParseError& error) {
         throw UserError(describe_parse_error(app, error));
     }
-    if (command == "stability") static_cast<void>(stability::chosen_cases(suite));
+    if (command == "stability") static_cast<void>(stability::chosen_cases(reader.suite));
     for (const char* name : {"--device", "--devices"}) {
         const CLI::Option* option = app.get_subcommand(command)->get_option_no_throw(name);
         if (option == nullptr) continue;
         for (const std::string& list : option->results()) check_device_list(list);
     }
+}
+
+/// Those that are looked up and not run are no options of a run.
+bool is_of_runs(const std::string& name) { return name != "help" && name != "print-schema"; }
+
+/// --no-geometry is the key no_geometry, and the key geometry, too.
+void add_keys(std::map<std::string, bool>& flags, std::string name, bool is_flag) {
+    std::ranges::replace(name, '-', '_');
+    flags.emplace(name, is_flag);
+    const std::string no = "no_";
+    if (name.starts_with(no)) flags.emplace(name.substr(no.size()), is_flag);
+}
+
+CommandLine command_line_of(const std::string& command) {
+    const Reader reader;
+    CommandLine line{{}, [command](const auto& words) { check_options(command, words); }};
+    for (const CLI::Option* option : reader.app.get_subcommand(command)->get_options()) {
+        const bool is_flag = option->get_expected_min() == 0;
+        for (const std::string& name : option->get_lnames()) {
+            if (is_of_runs(name)) add_keys(line.flags, name, is_flag);
+        }
+    }
+    return line;
 }
 
 std::size_t count_dropped(const std::vector<Run>& runs) {
@@ -54,7 +85,7 @@ fs::path sweep_folder(const std::string& name, const std::optional<std::string>&
 }
 
 Made make_sweep(const Sweep& sweep, const fs::path& folder) {
-    std::vector<Run> now = runs_of(sweep, folder, check_options);
+    std::vector<Run> now = runs_of(sweep, folder, command_line_of(sweep.command));
     Made made{sweep.name, folder, now.size()};
     FolderLock lock;  // two of these at a time might give one number twice
     if (!lock.take(folder)) {

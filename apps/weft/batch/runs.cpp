@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kIdDigits = 12;
+constexpr const char* kRepeat = "run.repeat";
 
 std::string hash_of(const std::string& text) {
     WordHash hash;
@@ -29,8 +30,15 @@ std::string hash_of(const std::string& text) {
 bool is_option(const std::string& key) { return key.starts_with("run."); }
 bool is_scene_value(const Setting& s) { return !is_option(s.key) && s.key != "sweep.scene"; }
 
+/// "run.max-work" is max_work.
+std::string option_key(const Setting& setting) {
+    std::string key = setting.key.substr(std::string("run.").size());
+    std::ranges::replace(key, '-', '_');
+    return key;
+}
+
 /// Keys of `run` that a scene has, or that the sweep itself looks after.
-void check_option_name(const Setting& setting) {
+void refuse_elsewhere(const Setting& setting) {
     static const std::map<std::string, std::string> elsewhere{
         {"solver", "scenes have it: solver.method"},
         {"frames", "scenes have it: scene.frames"},
@@ -44,9 +52,25 @@ void check_option_name(const Setting& setting) {
         {"quiet", "it belongs to 'weft batch'"},
         {"json", "it belongs to 'weft batch'"},
         {"as_sweep", "this is one already"}};
-    const auto known = elsewhere.find(setting.key.substr(std::string("run.").size()));
+    const auto known = elsewhere.find(option_key(setting));
     if (known == elsewhere.end()) return;
     throw UserError(fmt::format("{}: {}: {}", setting.mark.text(), setting.key, known->second));
+}
+
+/// Also of what is false, of which the command line shows nothing.
+void check_option(const Setting& setting, const std::map<std::string, bool>& flags) {
+    refuse_elsewhere(setting);
+    if (setting.key == kRepeat) return;
+    const auto known = flags.find(option_key(setting));
+    if (known == flags.end()) {
+        std::vector<std::string> keys{kRepeat, "run.time_limit"};
+        for (const auto& [key, is_flag] : flags) keys.push_back("run." + key);
+        check_known(setting.mark, setting.key, keys);
+    } else if (known->second != setting.value.is_boolean()) {
+        throw UserError(fmt::format("{}: {} = {}: expected {}", setting.mark.text(), setting.key,
+                                    to_toml(setting.value),
+                                    known->second ? "true or false" : "a value"));
+    }
 }
 
 std::string option_value(const Value& value) {
@@ -58,14 +82,14 @@ std::string option_value(const Value& value) {
 
 /// "run.max_work" is --max-work.
 std::string option_name(const Setting& setting) {
-    std::string name = setting.key.substr(std::string("run.").size());
+    std::string name = option_key(setting);
     std::ranges::replace(name, '_', '-');
     return "--" + name;
 }
 
 /// run.device = "cpu" becomes --device cpu; true a flag; geometry = false becomes --no-geometry.
 void append_option(std::vector<std::string>& arguments, const Setting& setting) {
-    if (setting.key == "run.repeat") return;
+    if (setting.key == kRepeat) return;
     const std::string name = option_name(setting);
     if (!setting.value.is_boolean()) {
         arguments.push_back(name);
@@ -89,17 +113,18 @@ std::string describe(const Point& point, std::size_t first) {
 
 class RunMaker {
 public:
-    RunMaker(const Sweep& sweep, const fs::path& folder, const CheckOptions& check)
-        : sweep_(sweep), folder_(fs::absolute(folder).lexically_normal()), check_(check) {}
+    RunMaker(const Sweep& sweep, const fs::path& folder, const CommandLine& command_line)
+        : sweep_(sweep),
+          folder_(fs::absolute(folder).lexically_normal()),
+          command_line_(command_line) {}
 
     Run make(const Point& point) {
         Run run;
         std::vector<std::string> options;
         for (const Setting& setting : point) {
-            if (is_option(setting.key)) {
-                check_option_name(setting);
-                append_option(options, setting);
-            }
+            if (!is_option(setting.key)) continue;
+            check_option(setting, command_line_.flags);
+            append_option(options, setting);
         }
         check_options(options, point);
         run.arguments = options;
@@ -146,22 +171,32 @@ private:
     void check_options(const std::vector<std::string>& options, const Point& point) {
         if (!checked_.insert(options).second) return;
         try {
-            check_(sweep_.command, options);
+            command_line_.check(options);
         } catch (const UserError& error) {
             throw UserError(fmt::format("{}: run ({}): {}", place_of(error.what(), point),
                                         describe(point, 0), error.what()));
         }
     }
 
-    /// Of the option that the message names, or else of the last one.
+    /// Of the option that is refused alone, too; else of the sweep, as options that do not go
+    /// together are no mistake of one of them.
     std::string place_of(const std::string& message, const Point& point) const {
-        std::string place = sweep_.path;
         for (const Setting& setting : point) {
-            if (!is_option(setting.key)) continue;
-            place = setting.mark.text();
-            if (message.find(option_name(setting)) != std::string::npos) break;
+            if (is_option(setting.key) && is_refused_alone(setting, message))
+                return setting.mark.text();
         }
-        return place;
+        return sweep_.path;
+    }
+
+    bool is_refused_alone(const Setting& setting, const std::string& message) const {
+        std::vector<std::string> words;
+        append_option(words, setting);
+        try {
+            command_line_.check(words);
+        } catch (const UserError& error) {
+            return error.what() == message;
+        }
+        return false;
     }
 
     /// With the place of the value in front of what is wrong with it.
@@ -194,7 +229,7 @@ private:
 
     const Sweep& sweep_;
     fs::path folder_;
-    const CheckOptions& check_;
+    const CommandLine& command_line_;
     SceneHashes hashes_;
     std::set<std::vector<std::string>> checked_;
 };
@@ -214,8 +249,9 @@ std::string SceneHashes::of(const Scene& scene) {
     return hash_of(text);
 }
 
-std::vector<Run> runs_of(const Sweep& sweep, const fs::path& folder, const CheckOptions& check) {
-    RunMaker maker(sweep, folder, check);
+std::vector<Run> runs_of(const Sweep& sweep, const fs::path& folder,
+                         const CommandLine& command_line) {
+    RunMaker maker(sweep, folder, command_line);
     std::vector<Run> runs;
     std::map<std::string, std::size_t> seen;
     for (const Point& point : points_of(sweep)) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,15 +23,20 @@ struct Run {
     bool dropped = false;                ///< the sweep has it no more
 };
 
-/// Throws UserError for options that a command does not have.
-using CheckOptions =
-    std::function<void(const std::string& command, const std::vector<std::string>& arguments)>;
+/// What the command line of a subcommand takes.
+struct CommandLine {
+    /// Its options by their keys of the table `run` (max_work, geometry), and whether each is a
+    /// flag.
+    std::map<std::string, bool> flags;
+    /// Throws UserError for arguments that it would refuse.
+    std::function<void(const std::vector<std::string>& arguments)> check;
+};
 
 /// All runs of a sweep, every one of them read as a scene. Throws UserError with the place of the
 /// value that is wrong, and for two runs that are the same.
 /// folder  of the sweep, which the scenes' paths become relative to
 std::vector<Run> runs_of(const Sweep& sweep, const std::filesystem::path& folder,
-                         const CheckOptions& check);
+                         const CommandLine& command_line);
 
 /// What a scene's file and its meshes hold, as a hash. Files are read once.
 class SceneHashes {
