@@ -243,6 +243,18 @@ def test_an_edited_sweep_keeps_its_numbers(folder):
         assert "stiffness=1000.0" in trace["run"].attrs["command"]
 
 
+def test_all_runs_are_those_that_the_sweep_still_has(folder):
+    make(folder)
+    (folder / "scene.toml").write_text(SHEET.replace("iterations = 2", "iterations = 3"))
+    make(folder, SWEEP.replace("[1e3, 1e4]", "[1e3, 1e5]"))
+    said = batch(folder, "sweep.toml", "--index", "all")
+    assert said.returncode == 0, said.stderr
+    assert states(folder) == {index: "finished" for index in range(4, 8)}
+    assert set(list(states(folder, "--dropped").values())[:4]) == {"waiting"}
+    script = batch(folder, "sweep.toml", "--script", "snakemake").stdout
+    assert "RUNS = [*range(4, 8)]\n" in script
+
+
 def test_an_edited_scene_is_not_run_as_the_old_one(folder):
     make(folder)
     (folder / "scene.toml").write_text(SHEET.replace("iterations = 2", "iterations = 3"))
@@ -363,7 +375,7 @@ def test_says_where_hashes_differ(folder):
     ("slurm", ["#SBATCH --array=0-3", "scontrol requeue"]),
     ("parallel", ["--termseq", "--commands"]),
     ("hyperqueue", ["hq submit", "--array 0-3"]),
-    ("snakemake", ["rule run", "range(4)"]),
+    ("snakemake", ["rule run", "RUNS = [*range(0, 4)]"]),
 ])
 def test_scripts(folder, engine, parts):
     make(folder)

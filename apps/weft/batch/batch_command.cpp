@@ -109,7 +109,8 @@ void conclude(const std::vector<batch::Outcome>& outcomes, const std::string& na
 
 void run_indices(const BatchOptions& options, const fs::path& folder) {
     const batch::Manifest manifest = batch::read_manifest(folder);
-    const auto indices = batch::parse_indices(*options.index, manifest.runs.size());
+    const auto indices =
+        batch::parse_indices(*options.index, manifest.runs.size(), manifest.current());
     const auto outcomes = batch::drive(
         folder, manifest, indices,
         {options.again, options.quiet || indices.size() == 1, WEFT_VERSION}, run_program_with);

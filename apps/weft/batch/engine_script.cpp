@@ -12,8 +12,7 @@ namespace weft::batch {
 namespace {
 
 struct Words {
-    std::string name, folder, ranges;
-    std::size_t count = 0;
+    std::string name, folder, ranges, list;
 };
 
 constexpr const char* kSlurm = R"script(#!/bin/bash
@@ -57,7 +56,7 @@ hq submit --name {name} --array {ranges} --pin taskset --cpus 1 \
 
 constexpr const char* kSnakemake =
     R"script(# The sweep {name} by Snakemake: snakemake --snakefile Snakefile --cores all --keep-going
-RUNS = range({count})
+RUNS = {list}
 
 rule all:
     input: expand("{folder}/done/{{index}}", index=RUNS)
@@ -72,7 +71,7 @@ rule run:
 std::string filled(const char* form, const Words& words) {
     return fmt::format(fmt::runtime(form), fmt::arg("name", words.name),
                        fmt::arg("folder", words.folder), fmt::arg("ranges", words.ranges),
-                       fmt::arg("count", words.count));
+                       fmt::arg("list", words.list));
 }
 
 /// For job names, which take no blanks.
@@ -91,7 +90,7 @@ const std::vector<std::string>& engines() {
 std::string script_for(const std::string& engine, const Manifest& manifest,
                        const std::filesystem::path& folder) {
     const Words words{job_name(manifest.name), shell_word(folder.string()),
-                      to_ranges(manifest.current()), manifest.runs.size()};
+                      to_ranges(manifest.current()), to_python(manifest.current())};
     if (engine == "slurm") return filled(kSlurm, words);
     if (engine == "parallel") return filled(kParallel, words);
     if (engine == "hyperqueue") return filled(kHyperQueue, words);

@@ -1,10 +1,11 @@
 #include "apps/weft/batch/index_list.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
-#include <numeric>
 #include <set>
+#include <utility>
 
 #include "runtime/error.h"
 
@@ -30,16 +31,24 @@ std::size_t parse_number(std::string_view digits, const std::string& text, std::
     return number;
 }
 
+/// First and last of the numbers that follow each other.
+std::vector<std::pair<std::size_t, std::size_t>> stretches(
+    const std::vector<std::size_t>& indices) {
+    std::vector<std::pair<std::size_t, std::size_t>> list;
+    for (const std::size_t index : indices) {
+        if (list.empty() || list.back().second + 1 != index) list.emplace_back(index, index);
+        list.back().second = index;
+    }
+    return list;
+}
+
 }  // namespace
 
-std::vector<std::size_t> parse_indices(const std::string& text, std::size_t count) {
+std::vector<std::size_t> parse_indices(const std::string& text, std::size_t count,
+                                       const std::vector<std::size_t>& all) {
     if (count == 0) refuse(text, "the sweep has no runs");
+    if (text == "all") return all;
     std::set<std::size_t> indices;
-    if (text == "all") {
-        std::vector<std::size_t> all(count);
-        std::iota(all.begin(), all.end(), 0);
-        return all;
-    }
     std::string_view rest = text;
     while (true) {
         const std::string_view part = rest.substr(0, rest.find(','));
@@ -55,16 +64,21 @@ std::vector<std::size_t> parse_indices(const std::string& text, std::size_t coun
 }
 
 std::string to_ranges(const std::vector<std::size_t>& indices) {
-    std::string text;
-    for (std::size_t i = 0; i < indices.size();) {
-        std::size_t j = i;
-        while (j + 1 < indices.size() && indices[j + 1] == indices[j] + 1) ++j;
-        text += text.empty() ? "" : ",";
-        text +=
-            i == j ? fmt::format("{}", indices[i]) : fmt::format("{}-{}", indices[i], indices[j]);
-        i = j + 1;
+    std::vector<std::string> parts;
+    for (const auto& [first, last] : stretches(indices)) {
+        parts.push_back(first == last ? fmt::format("{}", first)
+                                      : fmt::format("{}-{}", first, last));
     }
-    return text;
+    return fmt::format("{}", fmt::join(parts, ","));
+}
+
+std::string to_python(const std::vector<std::size_t>& indices) {
+    std::vector<std::string> parts;
+    for (const auto& [first, last] : stretches(indices)) {
+        parts.push_back(first == last ? fmt::format("{}", first)
+                                      : fmt::format("*range({}, {})", first, last + 1));
+    }
+    return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
 }  // namespace weft::batch
