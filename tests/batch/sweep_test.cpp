@@ -76,8 +76,17 @@ TEST(Sweep, RangesMeetTheirEnds) {
     ASSERT_EQ(logarithmic.size(), 4U);
     EXPECT_EQ(logarithmic.front(), 1e3);
     EXPECT_EQ(logarithmic.back(), 1e6);
-    EXPECT_NEAR(logarithmic[1], 1e4, 1e-8);
-    EXPECT_NEAR(logarithmic[2], 1e5, 1e-7);
+    // What a person would write, so that it can be selected: std::pow alone gives
+    // 9999.999999999998.
+    EXPECT_EQ(logarithmic, (std::vector<double>{1e3, 1e4, 1e5, 1e6}));
+    EXPECT_EQ(numbers("{ from = 1e2, to = 1e5, count = 4, scale = \"log\" }"),
+              (std::vector<double>{1e2, 1e3, 1e4, 1e5}));
+    EXPECT_EQ(numbers("{ from = 0.1, to = 0.5, count = 5 }"),
+              (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5}));
+    EXPECT_EQ(numbers("{ from = -0.3, to = 0.6, count = 4 }"),
+              (std::vector<double>{-0.3, 0.0, 0.3, 0.6}));
+    const auto exact = numbers("{ from = 0.12345678901234567, to = 1e30, count = 2 }");
+    EXPECT_EQ(exact.front(), 0.12345678901234567);
     EXPECT_EQ(numbers("{ from = 1.0, to = 0.0, count = 3 }"), (std::vector<double>{1.0, 0.5, 0.0}));
 }
 
@@ -90,6 +99,29 @@ TEST(Sweep, RangesOfWholeNumbersStayWhole) {
     EXPECT_EQ(text("{ from = 1, to = 2, count = 3 }"), "1.0, 1.5, 2.0");
 }
 
+TEST(Sweep, LeavingOutNothingIsAMistake) {
+    const std::string axes = R"(
+[[axis]]
+key = "a.b"
+values = ["x", "y"]
+[[axis]]
+keys = ["c.d", "e.f"]
+values = [[1, 2], [3, 4]]
+)";
+    const std::string wrong =
+        refused(axes + "[[leave_out]]\n\"a.b\" = \"x\"\n[[leave_out]]\n\"c.d\" = 2\n");
+    EXPECT_NE(wrong.find("s.toml:12:1: [[leave_out]] c.d = 2: no run"), std::string::npos) << wrong;
+    // Each value is there, but no run has both.
+    EXPECT_NE(refused(axes + "[[leave_out]]\n\"c.d\" = 1\n\"e.f\" = 4\n").find("no run"),
+              std::string::npos);
+    const std::string dotted = refused(axes + "[[leave_out]]\na.b = \"x\"\n");
+    EXPECT_NE(dotted.find("stand in quotes"), std::string::npos) << dotted;
+    // What another one leaves out already may be left out again.
+    EXPECT_EQ(expanded(axes + "[[leave_out]]\n\"a.b\" = \"x\"\n"
+                              "[[leave_out]]\n\"a.b\" = \"x\"\n\"c.d\" = 1\n"),
+              "y 1 2, y 3 4");
+}
+
 TEST(Sweep, SaysWhereItIsWrong) {
     const std::string axis = "[[axis]]\nkey = \"a.b\"\n";
     EXPECT_NE(refused("[[axes]]\nkey = \"a\"\n").find("unknown key 'axes'"), std::string::npos);
@@ -100,7 +132,10 @@ TEST(Sweep, SaysWhereItIsWrong) {
     EXPECT_NE(refused(axis + "range = { from = -1, to = 2, count = 3, scale = \"log\" }\n")
                   .find("positive"),
               std::string::npos);
-    EXPECT_NE(refused(axis + "range = { from = 1, to = 2, count = 1 }\n").find("2 or more"),
+    EXPECT_NE(refused(axis + "range = { from = 1, to = 2, count = 1 }\n").find("from 2 to"),
+              std::string::npos);
+    EXPECT_NE(refused(axis + "range = { from = 1, to = 2, count = 1000000000 }\n")
+                  .find("from 2 to 1000000"),
               std::string::npos);
     EXPECT_NE(refused(axis + "values = [1]\n" + axis + "values = [2]\n").find("already"),
               std::string::npos);

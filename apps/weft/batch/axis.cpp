@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -78,7 +79,8 @@ std::vector<double> numbers_of_range(const Node& range) {
     const double from = number_of(range, "from"), to = number_of(range, "to");
     const double count = number_of(range, "count");
     if (count < 2 || count > kMostRuns || count != std::floor(count)) {
-        fail(required(range, "count"), "count", "expected a whole number, 2 or more");
+        fail(required(range, "count"), "count",
+             fmt::format("expected a whole number from 2 to {}", kMostRuns));
     }
     const bool logarithmic = is_logarithmic(range, from, to);
     std::vector<double> numbers;
@@ -105,6 +107,21 @@ bool all_whole(const Node& range, std::vector<double>& numbers) {
     return true;
 }
 
+/// Those between the ends as a person would write them, so that results can be selected by them:
+/// 1000, not 999.9999999999998, and nought where a range passes it.
+void round_between(std::vector<double>& numbers) {
+    constexpr double kNought = 1e-12;
+    const double length = std::abs(numbers.back() - numbers.front());
+    const bool passes_nought = numbers.front() * numbers.back() < 0.0;
+    for (std::size_t i = 1; i + 1 < numbers.size(); ++i) {
+        const std::string text = fmt::format("{:.12g}", numbers[i]);
+        if (passes_nought && std::abs(numbers[i]) < kNought * length)
+            numbers[i] = 0.0;
+        else
+            std::from_chars(text.data(), text.data() + text.size(), numbers[i]);
+    }
+}
+
 Axis read_range(const Node& table, const Node& range) {
     Axis axis{read_keys(table), {}};
     if (axis.keys.size() != 1 || !range.is_table()) {
@@ -114,6 +131,7 @@ Axis read_range(const Node& table, const Node& range) {
     check_members(range, {"from", "to", "count", "scale"});
     std::vector<double> numbers = numbers_of_range(range);
     const bool whole = all_whole(range, numbers);
+    if (!whole) round_between(numbers);
     for (const double x : numbers) {
         const Value value = whole ? Value(static_cast<std::int64_t>(x)) : Value(x);
         axis.steps.push_back({{axis.keys.front(), value, range.mark}});

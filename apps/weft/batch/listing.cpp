@@ -9,6 +9,21 @@
 
 namespace weft::batch {
 
+namespace {
+
+/// Below the line of a run: why it failed, and the first of its warnings.
+std::string remarks(const Status& status) {
+    std::string text;
+    if (status.state == State::kFailed) text += fmt::format("{:>6}  {}\n", "", status.why);
+    if (status.warnings.empty()) return text;
+    text += fmt::format("{:>6}  warning: {}", "", status.warnings.front());
+    if (status.warnings.size() > 1)
+        text += fmt::format(" (and {} more)", status.warnings.size() - 1);
+    return text + '\n';
+}
+
+}  // namespace
+
 std::vector<Listed> list_runs(const std::filesystem::path& folder, const Manifest& manifest,
                               bool dropped) {
     std::vector<Listed> list;
@@ -58,21 +73,6 @@ std::string values_text(const Run& run) {
     }
     return text;
 }
-
-namespace {
-
-/// Below the line of a run: why it failed, and the first of its warnings.
-std::string remarks(const Status& status) {
-    std::string text;
-    if (status.state == State::kFailed) text += fmt::format("{:>6}  {}\n", "", status.why);
-    if (status.warnings.empty()) return text;
-    text += fmt::format("{:>6}  warning: {}", "", status.warnings.front());
-    if (status.warnings.size() > 1)
-        text += fmt::format(" (and {} more)", status.warnings.size() - 1);
-    return text + '\n';
-}
-
-}  // namespace
 
 std::string to_table(const std::vector<Listed>& runs) {
     std::string text = fmt::format("{:>6}  {:<12}  {:<8}  {:>8}  {}\n", "run", "id", "state",

@@ -76,13 +76,22 @@ std::vector<Setting> read_conditions(const Node& table) {
     return conditions;
 }
 
+/// TOML takes scene.frames = 1 for a table `scene`.
+void check_condition(const Setting& condition, const std::vector<std::string>& keys) {
+    if (condition.value.is_object() && std::ranges::find(keys, condition.key) == keys.end()) {
+        throw UserError(
+            fmt::format("{}: {}: keys with dots stand in quotes here, as in \"scene.frames\" = 1",
+                        condition.mark.text(), condition.key));
+    }
+    check_known(condition.mark, condition.key, keys);
+}
+
 /// A condition on a key that no axis has would never hold, or always.
 void check_conditions(const Sweep& sweep) {
     std::vector<std::string> keys;
     for (const Axis& axis : sweep.axes) keys.insert(keys.end(), axis.keys.begin(), axis.keys.end());
     for (const auto& conditions : sweep.leave_out) {
-        for (const Setting& condition : conditions)
-            check_known(condition.mark, condition.key, keys);
+        for (const Setting& condition : conditions) check_condition(condition, keys);
     }
 }
 
@@ -109,6 +118,26 @@ bool is_left_out(const Point& point, const std::vector<Setting>& conditions) {
             return setting.key == condition.key && same_value(setting.value, condition.value);
         });
     });
+}
+
+std::string conditions_text(const std::vector<Setting>& conditions) {
+    std::string text;
+    for (const Setting& condition : conditions) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", condition.key,
+                            to_toml(condition.value));
+    }
+    return text;
+}
+
+/// Whoever writes one means to leave something out.
+void check_leave_out(const Sweep& sweep, const std::vector<Point>& points) {
+    for (const auto& conditions : sweep.leave_out) {
+        const bool matches = std::ranges::any_of(
+            points, [&](const Point& point) { return is_left_out(point, conditions); });
+        if (matches) continue;
+        throw UserError(fmt::format("{}: [[leave_out]] {}: no run of the sweep has this",
+                                    conditions.front().mark.text(), conditions_text(conditions)));
+    }
 }
 
 void read_lists(const Node& root, Sweep& sweep) {
@@ -170,6 +199,7 @@ std::vector<Point> points_of(const Sweep& sweep) {
         }
         points = std::move(longer);
     }
+    check_leave_out(sweep, points);
     std::erase_if(points, [&](const Point& point) {
         return std::ranges::any_of(sweep.leave_out,
                                    [&](const auto& list) { return is_left_out(point, list); });

@@ -48,7 +48,7 @@ Sweep parse_sweep(const std::string& text, const std::string& path);
 std::string sweep_name(const std::string& path);
 
 /// The product of the axes, the last one fastest, without what is left out. Throws UserError where
-/// nothing remains.
+/// nothing remains, and where a list of what is left out matches nothing.
 std::vector<Point> points_of(const Sweep& sweep);
 
 /// "20m", "1h30m", "90s", or a number of seconds [s]. Throws UserError.
