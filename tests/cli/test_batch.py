@@ -325,18 +325,56 @@ def test_a_killed_run_is_lost_and_goes_on(long_folder):
     assert hash_of(long_folder, 0) == whole_hash(long_folder)
 
 
+def kill_run(process, number):
+    """Kills not the driver, but the run that it waits for."""
+    child = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], text=True,
+                           stdout=subprocess.PIPE).stdout.split()
+    os.kill(int(child[0]), number)
+
+
 def test_a_crash_takes_only_its_run(long_folder):
     make(long_folder)
     # Sanitizers leave the crash alone, which is not theirs to report.
     process = start_weft("batch", "sweep.toml", "--index", "0,2", cwd=long_folder,
                          env=dict(os.environ, ASAN_OPTIONS="handle_segv=0"))
     wait_for_checkpoint(long_folder, 0)
-    child = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], text=True,
-                           stdout=subprocess.PIPE).stdout.split()
-    os.kill(int(child[0]), signal.SIGSEGV)
+    kill_run(process, signal.SIGSEGV)
     assert process.wait(timeout=120) == 1
     assert "killed by signal 11" in process.communicate()[1]
     assert [states(long_folder)[index] for index in (0, 2)] == ["failed", "finished"]
+
+
+@pytest.fixture
+def killed(long_folder):
+    """A sweep whose run 0 was killed, as for want of memory, after its first checkpoint."""
+    make(long_folder)
+    process = start_weft("batch", "sweep.toml", "--index", "0", cwd=long_folder)
+    wait_for_checkpoint(long_folder, 0)
+    kill_run(process, signal.SIGKILL)
+    assert process.wait(timeout=120) == 1 and "out of memory" in process.communicate()[1]
+    return long_folder
+
+
+def frames_done_before(folder, index):
+    """By the run that went on, as its log tells."""
+    return [line for line in (run_folder(folder, index) / "log.txt").read_text().splitlines()
+            if "going on after" in line]
+
+
+def test_a_killed_run_goes_on_when_it_is_done_again(killed):
+    said = batch(killed, "sweep.toml", "--index", "0")
+    assert said.returncode == 1 and "--again goes on from its checkpoint" in said.stderr
+    assert batch(killed, "sweep.toml", "--index", "0", "--again").returncode == 0
+    assert frames_done_before(killed, 0)
+    assert hash_of(killed, 0) == whole_hash(killed)
+
+
+@pytest.mark.parametrize("spoil", [lambda file: file.unlink(), lambda file: file.write_text("x")],
+                         ids=["missing", "damaged"])
+def test_a_killed_run_without_a_usable_checkpoint_starts_anew(killed, spoil):
+    spoil(run_folder(killed, 0) / "checkpoint")
+    assert batch(killed, "sweep.toml", "--index", "0", "--again").returncode == 0
+    assert not frames_done_before(killed, 0)
 
 
 def test_stops_before_the_time_limit(long_folder):

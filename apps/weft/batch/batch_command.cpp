@@ -217,7 +217,9 @@ void add_batch_command(CLI::App& app) {
         ->type_name("DIR");
     command->add_option("--index", options->index, "do these runs, as in 7, 0-47, 3,9 or all")
         ->type_name("N,N-N");
-    command->add_flag("--again", options->again, "with --index: failed runs start anew");
+    command->add_flag(
+        "--again", options->again,
+        "with --index: failed runs start anew, killed ones go on from their checkpoint");
     command
         ->add_option("--script", options->engine,
                      "print a job script for slurm, parallel, hyperqueue or snakemake")

@@ -13,6 +13,7 @@
 #include "apps/weft/batch/verdict.h"
 #include "runtime/cores.h"
 #include "runtime/error.h"
+#include "simulation/output/any_checkpoint.h"
 #include "simulation/scene/read_scene.h"
 
 namespace weft::batch {
@@ -30,6 +31,16 @@ std::string host_name() {
     char name[256] = "";
     ::gethostname(name, sizeof name - 1);
     return name;
+}
+
+bool is_checkpoint(const fs::path& file) {
+    if (!fs::exists(file)) return false;
+    try {
+        static_cast<void>(read_any_checkpoint(file));
+    } catch (const UserError&) {
+        return false;
+    }
+    return true;
 }
 
 class Driver {
@@ -65,7 +76,9 @@ private:
         if (status.state == State::kFinished) return {run.index, 0, "", status.warnings.size()};
         if (status.state == State::kFailed && !options_.again) {
             return {run.index, status.exit_code.value_or(kFailed),
-                    status.why + " (before; --again starts it anew)"};
+                    fmt::format("{} (before; --again {})", status.why,
+                                status.signal != 0 ? "goes on from its checkpoint, if it has one"
+                                                   : "starts it anew")};
         }
         try {
             check_scene(run);
@@ -90,8 +103,14 @@ private:
                         "'weft batch SWEEP.toml' takes the new one in, as new runs");
     }
 
+    /// What killed a run, such as a lack of memory, need not be there again. A run that ended with
+    /// an error of its own would only meet it again.
+    static bool can_go_on(const Status& status, const RunFolder& files) {
+        return status.signal != 0 && is_checkpoint(files.checkpoint());
+    }
+
     Outcome attempt(const Run& run, const RunFolder& files, Status status) {
-        const bool anew = status.state == State::kFailed;
+        const bool anew = status.state == State::kFailed && !can_go_on(status, files);
         begin(status);
         files.write(status);
         // Whoever was at it may have been killed between the run's end and the note of it.
@@ -101,6 +120,7 @@ private:
         const LastWords words(files.log());
         ChildRun child(files.log(), [&] { return in_child(run, files, anew); });
         const ChildEnd ended = child.wait(notice_, [&] { return deadline_.seconds_left(); });
+        status.signal = ended.signal;
         return end(run, files, status, verdict_of(ended, words));
     }
 
@@ -109,6 +129,7 @@ private:
         status.state = State::kRunning;
         status.exit_code.reset();
         status.why.clear();
+        status.signal = 0;
         status.warnings.clear();
         ++status.attempts;
         status.host = host_name();

@@ -21,7 +21,7 @@ std::filesystem::path run_path(const std::filesystem::path& folder, const Run& r
 std::filesystem::path scene_path(const std::filesystem::path& folder, const Run& run);
 
 struct DriveOptions {
-    bool again = false;  ///< failed runs start anew
+    bool again = false;  ///< failed runs are done again: killed ones go on, others start anew
     bool quiet = false;
     std::string weft;  ///< version
 };

@@ -50,6 +50,7 @@ Json to_json(const Status& status) {
     json["state"] = name_of(status.state);
     json["exit_code"] = status.exit_code ? Json(*status.exit_code) : Json(nullptr);
     if (!status.why.empty()) json["why"] = status.why;
+    if (status.signal != 0) json["signal"] = status.signal;
     json["attempts"] = status.attempts;
     json["host"] = status.host;
     json["cores"] = status.cores;
@@ -68,6 +69,7 @@ Status from_json(const Json& json, const std::string& path) {
     status.state = state_named(json.at("state"), path);
     if (!json.at("exit_code").is_null()) status.exit_code = json["exit_code"].get<int>();
     status.why = json.value("why", "");
+    status.signal = json.value("signal", 0);
     status.attempts = json.at("attempts");
     status.host = json.at("host");
     status.cores = json.at("cores");

@@ -31,13 +31,14 @@ struct Status {
     std::string why;               ///< it stopped or failed
     int attempts = 0;
     std::string host;
-    int cores = 0;                        ///< that the process might use
-    std::string engine;                   ///< "slurm", ...; empty: none that is known
-    std::string job;                      ///< the engine's name for it
-    std::string weft;                     ///< version
-    double start = 0.0;                   ///< of the last attempt [s since 1970]
-    double end = 0.0;                     ///< 0: goes on
-    double wall = 0.0;                    ///< all attempts that have ended [s]
+    int cores = 0;       ///< that the process might use
+    std::string engine;  ///< "slurm", ...; empty: none that is known
+    std::string job;     ///< the engine's name for it
+    std::string weft;    ///< version
+    double start = 0.0;  ///< of the last attempt [s since 1970]
+    double end = 0.0;    ///< 0: goes on
+    double wall = 0.0;   ///< all attempts that have ended [s]
+    int signal = 0;      ///< that killed the run itself in that attempt; 0: it ended by itself
     std::vector<std::string> warnings{};  ///< as summary.json has them at the end of an attempt
 };
 
@@ -50,6 +51,7 @@ public:
     std::filesystem::path log() const { return path_ / "log.txt"; }
     std::filesystem::path summary() const { return path_ / "summary.json"; }
     std::filesystem::path trace() const { return path_ / "trace.h5"; }
+    std::filesystem::path checkpoint() const { return path_ / "checkpoint"; }
 
     /// What status.json says, with `state` as the lock shows it. Throws RunError where it cannot be
     /// read.
