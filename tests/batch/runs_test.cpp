@@ -94,7 +94,8 @@ TEST_F(Runs, OptionsAreChecked) {
     EXPECT_NE(refused("run = { geometry = 1 }\n").find("expected true or false"),
               std::string::npos);
     EXPECT_NE(refused("run = { device = false }\n").find("expected a value"), std::string::npos);
-    EXPECT_NE(refused("run = { frames = 1 }\n").find("scene.frames"), std::string::npos);
+    EXPECT_NE(refused("run = { frames = 1 }\n").find("use an axis on scene.frames"),
+              std::string::npos);
     EXPECT_NE(refused("run = { out = \"x\" }\n").find("folders"), std::string::npos);
 }
 
@@ -116,6 +117,9 @@ TEST_F(Runs, ScenesMayBeAnAxis) {
     EXPECT_NE(runs[0].id, runs[1].id);
     EXPECT_NE(refused("[[axis]]\nkey = \"sweep.scene\"\nvalues = [\"none.toml\"]\n")
                   .find("none.toml: no such"),
+              std::string::npos);
+    EXPECT_NE(refused("[[axis]]\nkey = \"sweep.scene\"\nvalues = [\"none.toml\"]\n")
+                  .find("s.toml:4:11: "),
               std::string::npos);
 }
 

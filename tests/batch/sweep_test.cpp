@@ -167,6 +167,10 @@ TEST_F(SweepTable, LinesMustBeWhole) {
               std::string::npos);
 }
 
+TEST(Csv, MayBeginWithAByteOrderMark) {
+    EXPECT_EQ(parse_csv("\xEF\xBB\xBFscene.frames\n1\n")[0][0], "scene.frames");
+}
+
 TEST(Csv, QuotedCellsHoldAnything) {
     const auto lines = parse_csv("a,\"b,\"\"c\"\"\nd\"\r\n,\n");
     ASSERT_EQ(lines.size(), 2U);

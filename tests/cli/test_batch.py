@@ -186,7 +186,7 @@ def test_sweeps_keep_the_costs_that_they_measure(folder):
     (('device = "cpu/1"', 'devcie = "cpu/1"'), ["sweep.toml:3:9", "run.device"]),
     (("geometry", "geometri"), ["sweep.toml:3:27", "run.geometri", "run.geometry"]),
     (("geometry", "foo"), ["sweep.toml:3:27", "run.foo"]),
-    (("scene.toml", "scne.toml"), ["scne.toml"]),
+    (("scene.toml", "scne.toml"), ["sweep.toml:2:31: scne.toml: no such scene"]),
     (("values = [1e3", "valeus = [1e3"), ["sweep.toml:6:1", "values"]),
 ])
 def test_a_wrong_value_is_found_before_anything_runs(folder, change, parts):

@@ -207,7 +207,9 @@ std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
         if (line.size() > 1 || !trimmed(line.front()).empty()) lines.push_back(line);
         line = {""};
     };
-    for (std::size_t i = 0; i < text.size(); ++i) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin with it
+    std::size_t i = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+    for (; i < text.size(); ++i) {
         const char c = text[i];
         if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"')
             line.back() += text[++i];

@@ -37,14 +37,14 @@ std::string option_key(const Setting& setting) {
     return key;
 }
 
-/// Keys of `run` that a scene has, or that the sweep itself looks after.
-void refuse_elsewhere(const Setting& setting) {
-    static const std::map<std::string, std::string> elsewhere{
-        {"solver", "scenes have it: solver.method"},
-        {"frames", "scenes have it: scene.frames"},
-        {"substeps", "scenes have it: scene.substeps"},
-        {"iterations", "scenes have it: solver.iterations"},
-        {"set", "name the key itself, as in \"scene.frames\""},
+/// Keys of `run` that a scene has, or that the sweep itself looks after, and what to do instead.
+const std::map<std::string, std::string>& elsewhere() {
+    static const std::map<std::string, std::string> keys{
+        {"solver", "it is a value of the scene: use an axis on solver.method"},
+        {"frames", "it is a value of the scene: use an axis on scene.frames"},
+        {"substeps", "it is a value of the scene: use an axis on scene.substeps"},
+        {"iterations", "it is a value of the scene: use an axis on solver.iterations"},
+        {"set", "use an axis on the key itself, as on scene.frames"},
         {"time_limit", "it is the same for all runs: write it into the table 'run'"},
         {"out", "the sweep chooses its folders"},
         {"force", "'weft batch --index' has --again"},
@@ -52,19 +52,23 @@ void refuse_elsewhere(const Setting& setting) {
         {"quiet", "it belongs to 'weft batch'"},
         {"json", "it belongs to 'weft batch'"},
         {"as_sweep", "this is one already"}};
-    const auto known = elsewhere.find(option_key(setting));
-    if (known == elsewhere.end()) return;
-    throw UserError(fmt::format("{}: {}: {}", setting.mark.text(), setting.key, known->second));
+    return keys;
 }
 
 /// Also of what is false, of which the command line shows nothing.
 void check_option(const Setting& setting, const std::map<std::string, bool>& flags) {
-    refuse_elsewhere(setting);
+    const auto refused = elsewhere().find(option_key(setting));
+    if (refused != elsewhere().end()) {
+        throw UserError(
+            fmt::format("{}: {}: {}", setting.mark.text(), setting.key, refused->second));
+    }
     if (setting.key == kRepeat) return;
     const auto known = flags.find(option_key(setting));
     if (known == flags.end()) {
         std::vector<std::string> keys{kRepeat, "run.time_limit"};
-        for (const auto& [key, is_flag] : flags) keys.push_back("run." + key);
+        for (const auto& [key, is_flag] : flags) {
+            if (!elsewhere().contains(key)) keys.push_back("run." + key);
+        }
         check_known(setting.mark, setting.key, keys);
     } else if (known->second != setting.value.is_boolean()) {
         throw UserError(fmt::format("{}: {} = {}: expected {}", setting.mark.text(), setting.key,
@@ -142,12 +146,14 @@ public:
 private:
     fs::path scene_of(const Point& point) const {
         fs::path scene = sweep_.scene;
+        Mark mark = sweep_.scene_mark;
         for (const Setting& setting : point) {
             if (setting.key != "sweep.scene") continue;
             if (!setting.value.is_string()) {
                 throw UserError(setting.mark.text() + ": sweep.scene: expected a file");
             }
             scene = setting.value.get<std::string>();
+            mark = setting.mark;
         }
         if (scene.empty() && sweep_.command == "stability") {
             check_no_scene_values(point);
@@ -157,7 +163,11 @@ private:
             throw UserError(sweep_.path +
                             ": which scene? sweep = { scene = \"...\" }, or an axis sweep.scene");
         }
-        return (fs::path(sweep_.path).parent_path() / scene).lexically_normal();
+        fs::path file = (fs::path(sweep_.path).parent_path() / scene).lexically_normal();
+        if (!fs::exists(file)) {
+            throw UserError(fmt::format("{}: {}: no such scene file", mark.text(), file.string()));
+        }
+        return file;
     }
 
     static void check_no_scene_values(const Point& point) {

@@ -166,7 +166,10 @@ Sweep parse_sweep(const std::string& text, const std::string& path) {
     sweep.text = text;
     sweep.name = read_name(table);
     sweep.command = read_command(table);
-    if (const Node* scene = table.find("scene")) sweep.scene = text_of(*scene, "scene");
+    if (const Node* scene = table.find("scene")) {
+        sweep.scene = text_of(*scene, "scene");
+        sweep.scene_mark = scene->mark;
+    }
     read_run_table(root, sweep);
     read_lists(root, sweep);
     check_keys_differ(sweep);

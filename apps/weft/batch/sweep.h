@@ -27,8 +27,9 @@ struct Sweep {
     std::string path;
     std::string text;
     std::string name;
-    std::string command = "run";       ///< the subcommand that a run of the sweep is
-    std::string scene;                 ///< as written: relative to the sweep file
+    std::string command = "run";  ///< the subcommand that a run of the sweep is
+    std::string scene;            ///< as written: relative to the sweep file
+    Mark scene_mark;
     std::vector<Setting> settings;     ///< run.*, the same for all
     std::optional<double> time_limit;  ///< [s] that a process of --index may take
     std::vector<Axis> axes;
