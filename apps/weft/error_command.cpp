@@ -75,7 +75,7 @@ void make_sweep_of(const ErrorOptions& options) {
     const Scene scene = scene_of(options);
     const std::string name = scene.name + (options.trajectory ? "-trajectory" : "-error");
     const std::filesystem::path folder = batch::sweep_folder(name, options.run.out);
-    make_study_sweep(study_sweep(options, name, folder), folder, options.run.json);
+    make_study_sweep(study_sweep(options, name, folder), folder, options.run);
 }
 
 void run_error(ErrorOptions options) {

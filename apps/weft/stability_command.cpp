@@ -93,7 +93,7 @@ void make_sweep_of(const StudyOptions& options) {
     if (!options.run.scene.empty())
         name = read_scene(options.run.scene, options.run.overrides()).name + "-settings";
     const std::filesystem::path folder = batch::sweep_folder(name, options.run.out);
-    make_study_sweep(sweep_text(options, name, folder), folder, options.run.json);
+    make_study_sweep(sweep_text(options, name, folder), folder, options.run);
 }
 
 void run_stability(StudyOptions options) {

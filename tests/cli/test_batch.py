@@ -110,6 +110,12 @@ def test_from_a_sweep_to_its_results(folder):
         assert len(file["traces/2/frames"]) == 3 and set(file["traces"]) == {"0", "1", "2"}
 
 
+def test_quiet_says_what_was_made_and_no_more(folder):
+    assert batch(folder, "sweep.toml", "--quiet").stdout == "s: 4 runs in out/s\n"
+    made = weft("error", "scene.toml", "--devices", "cpu/1", "--as-sweep", "--quiet", cwd=folder)
+    assert made.returncode == 0 and "runs in" in made.stdout and "next:" not in made.stdout
+
+
 def test_warnings_are_seen_wherever_a_sweep_is_looked_at(folder):
     """Too few iterations for the mesh are warned of by the run that has them."""
     make(folder, SWEEP.replace("cloth[0].stretch.stiffness", "solver.iterations")

@@ -70,7 +70,8 @@ void make(const BatchOptions& options) {
     if (options.json)
         std::cout << json_text(to_json(made)) << std::endl;
     else
-        std::cout << to_text(made, options.sweep) << std::flush;
+        std::cout << to_text(made) << (options.quiet ? "" : batch::next_steps(options.sweep))
+                  << std::flush;
 }
 
 /// 75 if anything goes on, or else the highest code.

@@ -101,7 +101,7 @@ Made make_sweep(const Sweep& sweep, const fs::path& folder) {
     return made;
 }
 
-std::string to_text(const Made& made, const std::string& sweep_file) {
+std::string to_text(const Made& made) {
     std::string text =
         fmt::format("{}: {} runs in {}", made.name, made.current, made.folder.string());
     if (made.added != made.current) text += fmt::format(", {} of them new", made.added);
@@ -112,16 +112,18 @@ std::string to_text(const Made& made, const std::string& sweep_file) {
             "them)\n",
             made.dropped);
     }
-    const std::string file = shell_word(sweep_file);
-    return text +
-           fmt::format(
-               "next:\n"
-               "  weft batch {0} --index all          all of them here, one after the other\n"
-               "  weft batch {0} --script slurm       a job script; also parallel, "
-               "hyperqueue, snakemake\n"
-               "  weft batch {0} --list               what has become of them\n"
-               "  weft batch {0} --collect            results.csv, results.h5\n",
-               file);
+    return text;
+}
+
+std::string next_steps(const std::string& sweep_file) {
+    return fmt::format(
+        "next:\n"
+        "  weft batch {0} --index all          all of them here, one after the other\n"
+        "  weft batch {0} --script slurm       a job script; also parallel, "
+        "hyperqueue, snakemake\n"
+        "  weft batch {0} --list               what has become of them\n"
+        "  weft batch {0} --collect            results.csv, results.h5\n",
+        shell_word(sweep_file));
 }
 
 nlohmann::ordered_json to_json(const Made& made) {

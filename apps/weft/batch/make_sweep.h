@@ -24,7 +24,9 @@ struct Made {
 /// written.
 Made make_sweep(const Sweep& sweep, const std::filesystem::path& folder);
 
-std::string to_text(const Made& made, const std::string& sweep_file);
+std::string to_text(const Made& made);
+/// What a user may do with it.
+std::string next_steps(const std::string& sweep_file);
 nlohmann::ordered_json to_json(const Made& made);
 
 }  // namespace weft::batch

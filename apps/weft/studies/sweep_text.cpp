@@ -46,14 +46,15 @@ std::string sweep_value(const std::string& assignment) {
                        Value(assignment.substr(0, equals)).dump(), batch::to_toml(value));
 }
 
-void make_study_sweep(const std::string& text, const std::filesystem::path& folder, bool as_json) {
+void make_study_sweep(const std::string& text, const std::filesystem::path& folder,
+                      const RunOptions& options) {
     const std::string path = (folder / "sweep.toml").string();
     const batch::Made made = batch::make_sweep(batch::parse_sweep(text, path), folder);
     write_output(path, text);
-    if (as_json)
+    if (options.json)
         std::cout << json_text(to_json(made)) << std::endl;
     else
-        std::cout << to_text(made, path) << std::flush;
+        std::cout << to_text(made) << (options.quiet ? "" : batch::next_steps(path)) << std::flush;
 }
 
 }  // namespace weft

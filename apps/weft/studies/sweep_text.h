@@ -33,8 +33,9 @@ std::string sweep_axis(const std::string& key, const std::vector<std::string>& v
 /// An axis of one value, as --set has it.
 std::string sweep_value(const std::string& assignment);
 
-/// Makes a sweep of the text, writes sweep.toml beside it, and says so. Throws UserError before
-/// anything is written.
-void make_study_sweep(const std::string& text, const std::filesystem::path& folder, bool as_json);
+/// Makes a sweep of the text, writes sweep.toml beside it, and says so as the options have it.
+/// Throws UserError before anything is written.
+void make_study_sweep(const std::string& text, const std::filesystem::path& folder,
+                      const RunOptions& options);
 
 }  // namespace weft
