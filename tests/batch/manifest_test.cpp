@@ -22,7 +22,8 @@ Run make_run(std::size_t index, const std::string& id) {
 class ManifestFile : public InFolder {};
 
 TEST_F(ManifestFile, IsReadBack) {
-    Manifest manifest{"n", "run", "1", "text\n\"x\"", 60.0, {make_run(0, "a"), make_run(1, "b")}};
+    Manifest manifest{
+        "n", "run", "1", "../s.toml", "text\n\"x\"", 60.0, {make_run(0, "a"), make_run(1, "b")}};
     manifest.runs[1].dropped = true;
     write_manifest(folder_, manifest);
     const Manifest back = read_manifest(folder_);
@@ -38,14 +39,33 @@ TEST_F(ManifestFile, RefusesWhatIsNone) {
         return message_of([&] { read_manifest(folder_); });
     };
     EXPECT_NE(refused("").find("empty"), std::string::npos);
-    EXPECT_NE(refused("x\n").find("cannot be read"), std::string::npos);
+    EXPECT_NE(refused("x\n").find("manifest.jsonl:1: this line cannot be read"), std::string::npos);
+    EXPECT_NE(refused("x\n").find("make the sweep again"), std::string::npos);
+    EXPECT_EQ(refused("x\n").find("exception"), std::string::npos);
     EXPECT_NE(refused("{\"format\": \"other\"}\n").find("no manifest"), std::string::npos);
     // Cut off in the middle.
     const std::string whole =
-        to_jsonl(Manifest{"n", "run", "1", "", {}, {make_run(0, "a"), make_run(1, "b")}});
-    EXPECT_NE(refused(whole.substr(0, whole.size() - 5)).find("cannot be read"), std::string::npos);
+        to_jsonl(Manifest{"n", "run", "1", "", "", {}, {make_run(0, "a"), make_run(1, "b")}});
+    EXPECT_NE(refused(whole.substr(0, whole.size() - 5)).find("manifest.jsonl:3: this line cannot"),
+              std::string::npos);
     EXPECT_NE(refused(whole.substr(0, whole.find("\n{\"index\":1") + 1)).find("says 2"),
               std::string::npos);
+}
+
+TEST_F(ManifestFile, BelongsToTheSweepFileThatMadeIt) {
+    Manifest manifest;
+    manifest.name = "n";
+    manifest.file = "../a.toml";
+    const auto folder = folder_ / "n";
+    const std::string a = write("a.toml", ""), b = write("b.toml", "");
+    std::filesystem::create_directories(folder);
+    EXPECT_NO_THROW(check_made_by(manifest, folder, a));
+    const std::string wrong = message_of([&] { check_made_by(manifest, folder, b); });
+    EXPECT_EQ(wrong.find(b + ": "), 0U) << wrong;
+    EXPECT_NE(wrong.find("the folder of " + a), std::string::npos) << wrong;
+    // A file that was given another name is still the same sweep.
+    std::filesystem::remove(a);
+    EXPECT_NO_THROW(check_made_by(manifest, folder, b));
 }
 
 TEST(Merged, OldRunsKeepTheirNumbers) {

@@ -215,6 +215,28 @@ def test_bad_requests(folder, arguments, parts):
     expect_error(batch(folder, *arguments), 2, *parts)
 
 
+def test_two_sweeps_of_one_name_do_not_share_a_folder(folder):
+    make(folder)
+    (folder / "other.toml").write_text(SWEEP.replace("1e3", "1e5"))
+    for arguments in [], ["--list"], ["--index", "0"], ["--collect"], ["--script", "slurm"]:
+        expect_error(batch(folder, "other.toml", *arguments), 2, "other.toml: ", "sweep.toml",
+                     "'s'")
+    assert len(states(folder, "--dropped")) == 4
+    assert batch(folder, "other.toml", "--out", "out/other").returncode == 0
+    # The same file, given another name, is the same sweep.
+    (folder / "sweep.toml").rename(folder / "renamed.toml")
+    assert batch(folder, "renamed.toml", "--list").returncode == 0
+
+
+def test_a_damaged_manifest_says_where_and_what_to_do(folder):
+    make(folder)
+    manifest = folder / "out/s/manifest.jsonl"
+    manifest.write_text(manifest.read_text().replace('"index":2', '"index":'))
+    expect_error(batch(folder, "sweep.toml", "--list"), 2, "manifest.jsonl:4: ", "make the sweep")
+    manifest.unlink()
+    assert make(folder)["new"] == 4
+
+
 def test_an_index_needs_a_manifest(folder):
     expect_error(batch(folder, "sweep.toml", "--index", "0"), 2, "manifest.jsonl", "weft batch")
 

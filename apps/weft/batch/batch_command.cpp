@@ -49,6 +49,12 @@ fs::path folder_of(const BatchOptions& options) {
     return batch::sweep_folder(batch::sweep_name(options.sweep), options.out);
 }
 
+batch::Manifest manifest_of(const BatchOptions& options, const fs::path& folder) {
+    batch::Manifest manifest = batch::read_manifest(folder);
+    if (!fs::is_directory(options.sweep)) batch::check_made_by(manifest, folder, options.sweep);
+    return manifest;
+}
+
 int run_program_with(const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"weft"};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -109,7 +115,7 @@ void conclude(const std::vector<batch::Outcome>& outcomes, const std::string& na
 }
 
 void run_indices(const BatchOptions& options, const fs::path& folder) {
-    const batch::Manifest manifest = batch::read_manifest(folder);
+    const batch::Manifest manifest = manifest_of(options, folder);
     const auto indices =
         batch::parse_indices(*options.index, manifest.runs.size(), manifest.current());
     const auto outcomes = batch::drive(
@@ -120,7 +126,7 @@ void run_indices(const BatchOptions& options, const fs::path& folder) {
 }
 
 void list(const BatchOptions& options, const fs::path& folder) {
-    const batch::Manifest manifest = batch::read_manifest(folder);
+    const batch::Manifest manifest = manifest_of(options, folder);
     const auto all = batch::list_runs(folder, manifest, options.dropped);
     auto chosen = all;
     if (options.state) {
@@ -138,7 +144,7 @@ void list(const BatchOptions& options, const fs::path& folder) {
 }
 
 void collect(const BatchOptions& options, const fs::path& folder) {
-    const batch::Manifest manifest = batch::read_manifest(folder);
+    const batch::Manifest manifest = manifest_of(options, folder);
     batch::Collected collected = batch::collect(folder, manifest, options.dropped);
     batch::collect_study(folder, manifest, collected);
     for (const std::string& note : collected.differences) {
@@ -151,7 +157,7 @@ void collect(const BatchOptions& options, const fs::path& folder) {
 }
 
 void print_script(const BatchOptions& options, const fs::path& folder) {
-    const batch::Manifest manifest = batch::read_manifest(folder);
+    const batch::Manifest manifest = manifest_of(options, folder);
     std::cout << batch::script_for(*options.engine, manifest, folder) << std::flush;
 }
 
@@ -169,7 +175,7 @@ void run_batch(const BatchOptions& options) {
     if (options.list) return list(options, folder_of(options));
     if (options.watch) {
         const fs::path folder = folder_of(options);
-        return batch::watch(folder, batch::read_manifest(folder));
+        return batch::watch(folder, manifest_of(options, folder));
     }
     if (options.collect) return collect(options, folder_of(options));
     if (options.engine) return print_script(options, folder_of(options));

@@ -91,11 +91,21 @@ Made make_sweep(const Sweep& sweep, const fs::path& folder) {
     if (!lock.take(folder)) {
         throw RunError(folder.string() + ": another process is making this sweep; try again");
     }
-    std::vector<Run> before;
-    if (fs::exists(manifest_path(folder))) before = read_manifest(folder).runs;
-    const Manifest manifest{sweep.name, sweep.command,    WEFT_VERSION,
-                            sweep.text, sweep.time_limit, merged(before, std::move(now))};
-    made.added = manifest.runs.size() - before.size();
+    Manifest before;
+    if (fs::exists(manifest_path(folder))) {
+        before = read_manifest(folder);
+        check_made_by(before, folder, sweep.path);
+    }
+    const std::string file =
+        fs::absolute(sweep.path).lexically_normal().lexically_relative(fs::absolute(folder));
+    const Manifest manifest{sweep.name,
+                            sweep.command,
+                            WEFT_VERSION,
+                            file,
+                            sweep.text,
+                            sweep.time_limit,
+                            merged(before.runs, std::move(now))};
+    made.added = manifest.runs.size() - before.runs.size();
     made.dropped = count_dropped(manifest.runs);
     write_manifest(folder, manifest);
     return made;

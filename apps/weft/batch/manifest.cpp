@@ -23,6 +23,7 @@ Value head_json(const Manifest& manifest) {
                {"weft", manifest.weft},       {"name", manifest.name},
                {"command", manifest.command}, {"count", manifest.runs.size()}};
     if (manifest.time_limit) head["time_limit_s"] = *manifest.time_limit;
+    head["file"] = manifest.file;
     head["sweep"] = manifest.sweep;
     return head;
 }
@@ -36,19 +37,19 @@ Value run_json(const Run& run) {
     return line;
 }
 
-void read_head(const Value& head, Manifest& manifest) {
-    if (head.at("format") != kFormat) throw UserError("it is no manifest of weft batch");
+void read_head(const Value& head, const std::string& path, Manifest& manifest) {
+    if (head.at("format") != kFormat) throw UserError(path + ": it is no manifest of weft batch");
     const int version = head.at("format_version");
     if (version != kVersion) {
-        throw UserError(
-            fmt::format("its format has version {}, this weft reads {}", version, kVersion));
+        throw UserError(fmt::format("{}: its format has version {}, this weft reads {}", path,
+                                    version, kVersion));
     }
     manifest.name = head.at("name");
     manifest.command = head.at("command");
     manifest.weft = head.at("weft");
+    manifest.file = head.value("file", "");
     manifest.sweep = head.at("sweep");
     if (head.contains("time_limit_s")) manifest.time_limit = head["time_limit_s"].get<double>();
-    manifest.runs.reserve(head.at("count"));
 }
 
 Run read_run(const Value& line) {
@@ -63,23 +64,43 @@ Run read_run(const Value& line) {
     return run;
 }
 
-/// Throws UserError that says what is wrong, but not where; and the library's own errors.
-Manifest parse(std::istream& file) {
+[[noreturn]] void refuse_damaged(const std::string& place, const std::string& what) {
+    throw UserError(fmt::format(
+        "{}: {}: the manifest is damaged; delete it, and make the sweep again ('weft batch "
+        "SWEEP.toml'): what is done is kept, but runs may have other numbers",
+        place, what));
+}
+
+/// What `read` makes of a line. Throws UserError with the line's place.
+template <class Read>
+void read_line(const std::string& line, const std::string& place, const Read& read) {
+    try {
+        read(Value::parse(line));
+    } catch (const Value::exception&) {
+        refuse_damaged(place, "this line cannot be read");
+    }
+}
+
+Manifest parse(std::istream& file, const std::string& path) {
     Manifest manifest;
     std::string line;
-    if (!std::getline(file, line)) throw UserError("it is empty");
-    const Value head = Value::parse(line);
-    read_head(head, manifest);
+    if (!std::getline(file, line)) refuse_damaged(path, "the file is empty");
+    std::size_t count = 0;
+    read_line(line, path + ":1", [&](const Value& head) {
+        read_head(head, path, manifest);
+        count = head.at("count");
+    });
     while (std::getline(file, line)) {
-        manifest.runs.push_back(read_run(Value::parse(line)));
-        if (manifest.runs.back().index + 1 != manifest.runs.size()) {
-            throw UserError(fmt::format("run {} stands where run {} should",
-                                        manifest.runs.back().index, manifest.runs.size() - 1));
-        }
+        const std::size_t index = manifest.runs.size();
+        const std::string place = fmt::format("{}:{}", path, index + 2);
+        read_line(line, place, [&](const Value& run) { manifest.runs.push_back(read_run(run)); });
+        if (manifest.runs.back().index == index) continue;
+        refuse_damaged(place, fmt::format("run {} stands where run {} should",
+                                          manifest.runs.back().index, index));
     }
-    const std::size_t count = head.at("count");
     if (manifest.runs.size() != count) {
-        throw UserError(fmt::format("it has {} runs and says {}", manifest.runs.size(), count));
+        refuse_damaged(path,
+                       fmt::format("it has {} runs and says {}", manifest.runs.size(), count));
     }
     return manifest;
 }
@@ -109,13 +130,18 @@ Manifest read_manifest(const fs::path& folder) {
         throw UserError(path.string() +
                         ": is not there; 'weft batch SWEEP.toml' checks a sweep and makes it");
     }
-    try {
-        return parse(file);
-    } catch (const UserError& error) {
-        throw UserError(path.string() + ": " + error.what());
-    } catch (const Value::exception& error) {
-        throw UserError(path.string() + ": cannot be read: " + error.what());
-    }
+    return parse(file, path.string());
+}
+
+void check_made_by(const Manifest& manifest, const fs::path& folder,
+                   const std::string& sweep_file) {
+    if (manifest.file.empty()) return;
+    const fs::path maker = (folder / manifest.file).lexically_normal();
+    if (!fs::exists(maker) || !fs::exists(sweep_file) || fs::equivalent(maker, sweep_file)) return;
+    throw UserError(fmt::format(
+        "{}: {} is the folder of {}, which has the same name '{}'; give one of them another name, "
+        "or this one another --out",
+        sweep_file, folder.string(), maker.string(), manifest.name));
 }
 
 void write_manifest(const fs::path& folder, const Manifest& manifest) {

@@ -15,7 +15,8 @@ struct Manifest {
     std::string name;
     std::string command;               ///< the subcommand that each run is
     std::string weft;                  ///< the version that wrote it
-    std::string sweep;                 ///< the text of the sweep file
+    std::string file;                  ///< the sweep file, relative to the folder; empty: not known
+    std::string sweep;                 ///< its text
     std::optional<double> time_limit;  ///< [s] per process of --index
     std::vector<Run> runs;             ///< runs[i].index == i
 
@@ -30,6 +31,10 @@ std::filesystem::path manifest_path(const std::filesystem::path& folder);
 
 /// Throws UserError if it is missing, or is none.
 Manifest read_manifest(const std::filesystem::path& folder);
+/// Two sweep files of one name have one folder: throws UserError where another one than this, which
+/// is still there, has made the manifest.
+void check_made_by(const Manifest& manifest, const std::filesystem::path& folder,
+                   const std::string& sweep_file);
 /// As a whole or not at all. Throws RunError.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 
