@@ -1,17 +1,14 @@
 #include "simulation/bodies/mesh_files.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-
-#include <fmt/format.h>
 
 #include "runtime/error.h"
 #include "runtime/io/word_hash.h"
+#include "simulation/bodies/frame_files.h"
 
 namespace weft {
 
@@ -32,35 +29,6 @@ std::vector<BodyMesh> mesh_files(const Scene& scene) {
         }
     }
     return list;
-}
-
-std::vector<std::string> frame_files(const MeshObstacle& obstacle) {
-    if (obstacle.frames.empty()) return {};
-    const std::filesystem::path pattern(obstacle.frames);
-    const std::string name = pattern.filename().string();
-    const std::size_t star = name.find('*');
-    const std::string begin = name.substr(0, star);
-    const std::string end = star == std::string::npos ? "" : name.substr(star + 1);
-    std::vector<std::string> names;
-    std::error_code error;
-    const auto folder = pattern.has_parent_path() ? pattern.parent_path() : ".";
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-        const std::string file = entry.path().filename().string();
-        if (file.size() + 1 >= name.size() && file.starts_with(begin) && file.ends_with(end)) {
-            names.push_back(file);
-        }
-    }
-    if (names.empty() || star == std::string::npos) {
-        throw UserError(fmt::format(
-            "{}: motion.frames = \"{}\": {}", obstacle.where, obstacle.frames,
-            star == std::string::npos ? "expected a * where the number of the frame stands"
-                                      : "no file has such a name"));
-    }
-    // 9 comes before 10, with zeros in front of it or without.
-    std::ranges::sort(names, {},
-                      [](const std::string& file) { return std::pair(file.size(), file); });
-    for (std::string& file : names) file = (folder / file).string();
-    return names;
 }
 
 std::string file_hash(const std::string& path) {

@@ -16,10 +16,6 @@ struct BodyMesh {
 /// In the scene's order.
 std::vector<BodyMesh> mesh_files(const Scene& scene);
 
-/// The files of an obstacle's frames, by the number that stands in the place of the *; empty: it
-/// has none. Throws UserError where no file fits.
-std::vector<std::string> frame_files(const MeshObstacle& obstacle);
-
 /// Hash of a file's bytes (runtime/io/word_hash.h: its bytes, four to a word, then its length).
 /// Throws UserError if it cannot be read.
 std::string file_hash(const std::string& path);

@@ -4,7 +4,7 @@
 
 #include "runtime/error.h"
 #include "simulation/bodies/cloth_mesh.h"
-#include "simulation/bodies/mesh_files.h"
+#include "simulation/bodies/frame_files.h"
 #include "simulation/bodies/selection.h"
 #include "simulation/mesh/mesh_checks.h"
 #include "simulation/mesh/obj_reader.h"
@@ -16,6 +16,7 @@ TriangleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warning
     TriangleMesh mesh = make_triangle_mesh(obstacle.shape, warnings);
     if (std::holds_alternative<MeshFile>(obstacle.shape)) warn_of_odd_topology(mesh, warnings);
     place(mesh.positions, obstacle.transform);
+    warn_of_missing_frames(obstacle, warnings);
     auto frames = read_obstacle_frames(obstacle, mesh);
     if (!frames.empty()) mesh.positions = std::move(frames.front());
     check_areas(mesh);

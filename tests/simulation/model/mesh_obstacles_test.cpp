@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "runtime/error.h"
+#include "simulation/bodies/frame_files.h"
 #include "simulation/bodies/mesh_files.h"
 #include "simulation/checks/start_contacts.h"
 #include "simulation/families/convert.h"
@@ -161,6 +162,46 @@ TEST_F(FramesOfAnObstacle, AreInTheOrderOfTheirNumbers) {
     EXPECT_EQ(names,
               (std::vector<std::string>{"body_0.obj", "body_1.obj", "body_2.obj", "body_10.obj"}));
     EXPECT_EQ(mesh_files(read).size(), 5u);
+}
+
+TEST_F(FramesOfAnObstacle, MayHaveZerosInFront) {
+    std::filesystem::rename(folder_ / "body_2.obj", folder_ / "body_0002.obj");
+    const Scene read = parse_scene(scene(""), "s.toml");
+    const std::vector<std::string> files = frame_files(read.mesh_obstacles[0]);
+    ASSERT_EQ(files.size(), 4U);
+    EXPECT_TRUE(files[2].ends_with("body_0002.obj"));
+    EXPECT_TRUE(files[3].ends_with("body_10.obj"));
+}
+
+TEST_F(FramesOfAnObstacle, AreRefusedWithoutANumberOrWithTheSame) {
+    const auto why = [&](const char* name) {
+        std::filesystem::copy_file(folder_ / "body_0.obj", folder_ / name);
+        std::string what;
+        try {
+            frame_files(parse_scene(scene(""), "s.toml").mesh_obstacles[0]);
+        } catch (const UserError& error) {
+            what = error.what();
+        }
+        std::filesystem::remove(folder_ / name);
+        return what;
+    };
+    for (const char* name : {"body_final.obj", "body_1_old.obj", "body_-1.obj", "body_1.5.obj"}) {
+        EXPECT_NE(why(name).find(name), std::string::npos) << name;
+    }
+    EXPECT_NE(why("body_001.obj").find("the same number"), std::string::npos);
+    EXPECT_EQ(why("bod_x.obj"), "");
+}
+
+TEST_F(FramesOfAnObstacle, AreWarnedOfWhereOneIsMissing) {
+    const auto warnings_of = [&] {
+        Warnings warnings;
+        warn_of_missing_frames(parse_scene(scene(""), "s.toml").mesh_obstacles[0], warnings);
+        return warnings;
+    };
+    ASSERT_EQ(warnings_of().size(), 1U);
+    EXPECT_NE(warnings_of()[0].find("number 3 is missing"), std::string::npos);
+    std::filesystem::remove(folder_ / "body_10.obj");
+    EXPECT_EQ(warnings_of().size(), 0U);
 }
 
 TEST_F(FramesOfAnObstacle, AreReachedAndThenHeld) {
