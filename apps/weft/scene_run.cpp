@@ -123,6 +123,7 @@ void SceneRun::settle_solver() {
 RunDescription SceneRun::describe() const {
     RunDescription description = describe_run(*simulation_, options_);
     if (!solver_choice_.empty()) description.settings.emplace_back("solver_choice", solver_choice_);
+    description.warnings = all_warnings();
     return description;
 }
 
@@ -263,8 +264,8 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     while (frames_done() < scene_.frames && notice.signal() == 0) {
         keep_checkpoint();
         FrameRecord record = simulation_->advance({.tasks = trace_.has_value()});
-        say_losses();
-        say_troubles();
+        say_losses(record);
+        say_troubles(record);
         // First of all, so that a killed run's trace is no more than one frame behind its geometry.
         if (trace_) trace_->settle();
         if (geometry_) append_geometry();
@@ -313,21 +314,24 @@ Checkpoint SceneRun::checkpoint() const {
 }
 
 /// Even where talk is not wanted: the rest of the run is slower than was asked for.
-void SceneRun::say_losses() {
+void SceneRun::say_losses(FrameRecord& record) {
     const auto& losses = simulation_->losses();
     for (; losses_said_ < losses.size(); ++losses_said_) {
-        std::cerr << fmt::format("weft: warning: {}\n", text_of(losses[losses_said_]));
+        const std::string text = text_of(losses[losses_said_]);
+        std::cerr << fmt::format("weft: warning: {}\n", text);
+        record.warnings.push_back(text);
     }
 }
 
-/// Warnings of the results, on stderr and in the summary.
-void SceneRun::say_troubles() {
+/// Warnings of the results, on stderr, in the trace and in the summary.
+void SceneRun::say_troubles(FrameRecord& record) {
     const auto& troubles = simulation_->troubles();
     for (; troubles_said_ < troubles.size(); ++troubles_said_) {
         const Trouble& trouble = troubles[troubles_said_];
         const std::string text = fmt::format("frame {}: {}", trouble.frame, trouble.what);
         std::cerr << fmt::format("weft: warning: {}\n", text);
         summary_->warn(text);
+        record.warnings.push_back(trouble.what);
     }
 }
 

@@ -45,8 +45,8 @@ private:
     Checkpoint checkpoint() const;
     std::size_t geometry_steps(int frames) const;
     void append_geometry();
-    void say_losses();
-    void say_troubles();
+    void say_losses(FrameRecord& record);
+    void say_troubles(FrameRecord& record);
     std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;

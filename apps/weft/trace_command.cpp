@@ -22,7 +22,13 @@ struct TraceOptions {
 
 RunSummary summarise(const TraceReader& trace, const std::string& path) {
     SummaryBuilder builder(trace.run());
-    for (const FrameRecord& frame : trace.frames()) builder.add(frame);
+    for (const std::string& warning : trace.run().warnings) builder.warn(warning);
+    for (const FrameRecord& frame : trace.frames()) {
+        builder.add(frame);
+        for (const std::string& warning : frame.warnings) {
+            builder.warn(fmt::format("frame {}: {}", frame.frame, warning));
+        }
+    }
     RunSummary summary = builder.summary();
     summary.finished = trace.finished();
     summary.state_hash = trace.state_hash();

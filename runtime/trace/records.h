@@ -40,6 +40,7 @@ struct RunDescription {
     std::vector<DeviceDescription> devices;
     std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "predict", "strips"
     std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
+    std::vector<std::string> warnings;  ///< of what there was to doubt before the first frame
     /// False where all devices share memory: then there is no transfers table.
     bool has_transfers = false;
     /// False where nothing touches anything: then there is no contacts table.
@@ -173,6 +174,7 @@ struct FrameRecord {
     double work = 0.0;             ///< by what moves by itself, since the start [J]; NaN: not known
     double dissipated = 0.0;       ///< since the start [J]; NaN: not known
     std::vector<double> energies;  ///< [RunDescription::energies] [J]; empty: not measured
+    std::vector<std::string> warnings;  ///< of what there is to doubt in it; devices that were lost
 
     double wall_time() const { return end - start; }
 };

@@ -245,6 +245,13 @@ RowType contact_row_type() {
         .type();
 }
 
+RowType warning_row_type() {
+    const hdf5::Handle text = short_text_type(sizeof(WarningRecord::text));
+    return {sizeof(Row<WarningRecord>),
+            {column("frame", &Row<WarningRecord>::owner),
+             {"text", text.id(), offsetof(Row<WarningRecord>, record.text)}}};
+}
+
 void write_devices(hid_t run_group, const std::vector<DeviceDescription>& devices) {
     std::vector<DeviceRow> rows;
     for (const DeviceDescription& device : devices) {

@@ -55,6 +55,11 @@ struct FrameColumns {
     std::array<char, 32> state_hash{};  ///< all zero: not known
 };
 
+/// What to doubt in a frame.
+struct WarningRecord {
+    std::array<char, 512> text{};  ///< filled up with zeros
+};
+
 /// How many strips a graph gives to a device.
 struct DivisionRecord {
     std::uint32_t device = 0;
@@ -104,6 +109,7 @@ RowType cost_row_type();       ///< Row<CostRecord>
 RowType link_row_type();       ///< Row<LinkRecord>
 RowType transfer_row_type();   ///< Row<TransferRecord>
 RowType contact_row_type();    ///< Row<ContactRecord>
+RowType warning_row_type();    ///< Row<WarningRecord>
 
 // Rows that belong to a graph.
 RowType division_row_type();    ///< Row<DivisionRecord>

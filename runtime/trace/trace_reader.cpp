@@ -139,6 +139,7 @@ struct Tables {
           links(file, "links", trace::link_row_type()),
           transfers(file, "transfers", trace::transfer_row_type()),
           contacts(file, "contacts", trace::contact_row_type()),
+          warnings(file, "warnings", trace::warning_row_type()),
           energies(file, "energies", trace::energy_row_type(run.energies)),
           frames(file, "frames", trace::frame_row_type(run.devices.size())) {}
 
@@ -150,6 +151,7 @@ struct Tables {
     TableReader links;
     TableReader transfers;
     TableReader contacts;
+    TableReader warnings;
     TableReader energies;
     TableReader frames;
 };
@@ -166,6 +168,7 @@ public:
             read_run();
             tables_.emplace(file_.id(), run_);
             read_frames();
+            read_warnings();
             read_energies();
         });
     }
@@ -243,6 +246,9 @@ private:
         run_.scene_text = hdf5::read_text(group.id(), "scene");
         run_.kinds = hdf5::read_texts(group.id(), "kinds");
         run_.energies = hdf5::read_texts(group.id(), "energies");
+        if (hdf5::exists(group.id(), "warnings")) {
+            run_.warnings = hdf5::read_texts(group.id(), "warnings");
+        }
         run_.devices = trace::read_devices(group.id());
         run_.host = read_pairs(group.id(), "host");
         run_.versions = read_pairs(group.id(), "versions");
@@ -287,6 +293,14 @@ private:
             frame.state_hash = text_of(columns.state_hash);
             graph_numbers_.push_back(columns.graph);
             frame.busy = last_doubles(row, table.row_size(), run_.devices.size());
+        }
+    }
+
+    void read_warnings() {
+        for (FrameRecord& frame : frames_) {
+            for (const auto& row : tables_->warnings.records<trace::WarningRecord>(frame.frame)) {
+                frame.warnings.push_back(text_of(row.text));
+            }
         }
     }
 

@@ -78,6 +78,7 @@ struct Tables {
           dependencies(file, "dependencies", trace::dependency_row_type(), kManyRows, kDeflate),
           executions(file, "executions", trace::execution_row_type(), kManyRows, kDeflate),
           costs(file, "costs", trace::cost_row_type(), kFewRows, 0),
+          warnings(file, "warnings", trace::warning_row_type(), kFewRows, 0),
           energies(file, "energies", trace::energy_row_type(run.energies), kFewRows, 0),
           frames(file, "frames", trace::frame_row_type(run.devices.size()), kFewRows, 0) {
         if (run.devices.size() > 1) {
@@ -100,6 +101,7 @@ struct Tables {
         if (links) links->append(record.frame, record.links);
         if (transfers) transfers->append(record.frame, record.transfers);
         if (contacts) contacts->append(record.frame, record.contacts);
+        append_warnings(record);
         append_energies(record);
         append_frame(record);
     }
@@ -113,6 +115,12 @@ struct Tables {
         }
         divisions.append(record.graph, shares);
         dependencies.append(record.graph, record.dependencies);
+    }
+
+    void append_warnings(const FrameRecord& record) {
+        std::vector<trace::WarningRecord> rows;
+        for (const std::string& warning : record.warnings) fill(rows.emplace_back().text, warning);
+        warnings.append(record.frame, rows);
     }
 
     void append_frame(const FrameRecord& record) {
@@ -165,8 +173,8 @@ struct Tables {
 
     template <class Action>
     void for_each(Action action) {
-        for (Table* table :
-             {&plan, &divisions, &dependencies, &executions, &costs, &energies, &frames}) {
+        for (Table* table : {&plan, &divisions, &dependencies, &executions, &costs, &warnings,
+                             &energies, &frames}) {
             action(*table);
         }
         if (links) action(*links);
@@ -179,6 +187,7 @@ struct Tables {
     Table dependencies;
     Table executions;
     Table costs;
+    Table warnings;
     Table energies;
     Table frames;
     std::optional<Table> links;
@@ -218,6 +227,7 @@ void write_run(hid_t file, const RunDescription& run) {
     hdf5::write_text(group.id(), "scene", run.scene_text);
     hdf5::write_texts(group.id(), "kinds", run.kinds);
     hdf5::write_texts(group.id(), "energies", run.energies);
+    hdf5::write_texts(group.id(), "warnings", run.warnings);
     trace::write_devices(group.id(), run.devices);
     write_pairs(group.id(), "host", run.host);
     write_pairs(group.id(), "versions", run.versions);

@@ -14,7 +14,7 @@ FIXTURE = pathlib.Path(os.environ["WEFT_BIN"]) / "trace_fixture"
 ROOT = pathlib.Path(os.environ["WEFT_ROOT"])
 WEFT = os.environ["WEFT"]
 TABLES = ["contacts", "costs", "dependencies", "divisions", "energies", "executions", "frames",
-          "links", "plan", "transfers"]
+          "links", "plan", "transfers", "warnings"]
 
 
 @pytest.fixture(scope="module")

@@ -61,6 +61,7 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_TRUE(reader.run().meshes.empty());
     EXPECT_EQ(reader.run().kinds, run.kinds);
     EXPECT_EQ(reader.run().energies, run.energies);
+    EXPECT_EQ(reader.run().warnings, run.warnings);
     EXPECT_EQ(reader.run().settings, run.settings);
     EXPECT_EQ(TextPairs(reader.run().host.rbegin(), reader.run().host.rend()), run.host);
     ASSERT_EQ(reader.run().devices.size(), 2U);
@@ -90,6 +91,9 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.relative_error, expected.relative_error);
     EXPECT_EQ(frame.substeps, expected.substeps);
     EXPECT_EQ(frame.energies, expected.energies);
+    EXPECT_EQ(frame.warnings.size(), 2U);
+    EXPECT_EQ(frame.warnings, expected.warnings);
+    EXPECT_TRUE(reader.frame(6).warnings.empty());
     ASSERT_EQ(frame.plan.size(), expected.plan.size());
     EXPECT_EQ(frame.plan[20].first_strip, expected.plan[20].first_strip);
     EXPECT_EQ(frame.plan[20].items, expected.plan[20].items);
