@@ -74,17 +74,23 @@ std::optional<double> AsyncLoss::factor(const AsyncSettings& settings, int devic
     if (!has_goal_) {
         has_goal_ = true;
         goal_ = error_after(iterations_, nullptr, 1);
-        if (goal_ && !(*goal_ > 0.0)) goal_.reset();
+        if (goal_ && *goal_ > 0.0) needed_ = search(nullptr, 1);
     }
-    if (!goal_) return std::nullopt;
+    if (!needed_) return std::nullopt;
     const auto [known, is_new] = known_.try_emplace({to_text(settings), devices});
-    if (is_new) known->second = search(settings, devices, *goal_);
+    if (is_new) {
+        if (const auto iterations = search(&settings, devices)) {
+            known->second = *iterations / *needed_;
+        }
+    }
     return known->second;
 }
 
-/// The first number of iterations with an error as small; it may be less than the scene's.
-std::optional<double> AsyncLoss::search(const AsyncSettings& settings, int devices, double goal) {
-    const auto error = [&](int n) { return error_after(n, &settings, devices); };
+/// Near the scene's, the first number of iterations with an error as small as the goal, or where a
+/// curve through the errors has it before.
+std::optional<double> AsyncLoss::search(const AsyncSettings* settings, int devices) {
+    const double goal = *goal_;
+    const auto error = [&](int n) { return error_after(n, settings, devices); };
     int n = iterations_;
     std::optional<double> now = error(n);
     if (!now) return std::nullopt;
@@ -92,17 +98,17 @@ std::optional<double> AsyncLoss::search(const AsyncSettings& settings, int devic
     while (*now <= goal && n > 1) {
         before = error(n - 1);
         if (!before) return std::nullopt;
-        if (*before > goal) return crossing(n, *before, *now, goal) / iterations_;
+        if (*before > goal) return crossing(n, *before, *now, goal);
         now = before;
         --n;
     }
-    if (*now <= goal) return static_cast<double>(n) / iterations_;
+    if (*now <= goal) return n;
     const int most = static_cast<int>(kMost * iterations_);
     for (++n; n <= most; ++n) {
         before = now;
         now = error(n);
         if (!now) return std::nullopt;
-        if (*now <= goal) return crossing(n, *before, *now, goal) / iterations_;
+        if (*now <= goal) return crossing(n, *before, *now, goal);
     }
     return std::numeric_limits<double>::infinity();
 }

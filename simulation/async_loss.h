@@ -23,8 +23,9 @@ public:
     ~AsyncLoss();
 
     /// How many iterations devices that take equally long need for the error that the synchronous
-    /// solver reaches with the scene's, as a multiple of these. Infinite: more than kMost times as
-    /// many. None: the step has nothing to solve, so nothing is known.
+    /// solver reaches with the scene's, as a multiple of those that it needs itself: fewer than the
+    /// scene's, where its error does not fall steadily. Infinite: more than kMost times the
+    /// scene's. None: the step has nothing to solve, so nothing is known.
     std::optional<double> factor(const AsyncSettings& settings, int devices);
 
     static constexpr double kMost = 4.0;
@@ -32,14 +33,15 @@ public:
 private:
     /// Of the substep's end, after so many iterations; null: synchronous.
     std::optional<double> error_after(int iterations, const AsyncSettings* settings, int devices);
-    std::optional<double> search(const AsyncSettings& settings, int devices, double goal);
+    std::optional<double> search(const AsyncSettings* settings, int devices);
 
     Scene scene_;  ///< of the substep alone
     SubstepEnds start_;
     int substep_;  ///< since the run's beginning
     int iterations_;
     StepError estimate_;
-    std::optional<double> goal_;  ///< the synchronous solver's error
+    std::optional<double> goal_;    ///< the synchronous solver's error
+    std::optional<double> needed_;  ///< iterations of the synchronous solver for it
     bool has_goal_ = false;
     std::map<std::pair<std::string, int>, std::optional<double>> known_;  ///< [settings, devices]
 };

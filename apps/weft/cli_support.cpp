@@ -1,6 +1,7 @@
 #include "apps/weft/cli_support.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -34,7 +35,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
 }
 
 std::string command_path(const CLI::App& app, const CLI::App& command) {
-    return &app == &command ? app.get_name() : app.get_name() + " " + command.get_name();
+    if (&app == &command) return app.get_name();
+    return command_path(app, *command.get_parent()) + " " + command.get_name();
 }
 
 /// For a word that nothing expects: what it may have been meant to be.
@@ -57,6 +59,16 @@ std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+CLI::Validator number_where(bool (*holds)(double), const std::string& expected) {
+    const auto check = [=](const std::string& text) -> std::string {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        if (is_number && holds(value)) return "";
+        return fmt::format("'{}': expected {}", text, expected);
+    };
+    return CLI::Validator(check, "");
 }
 
 }  // namespace
@@ -140,13 +152,14 @@ void add_device_options(CLI::App& command, RunOptions& options) {
                     "weft inspect says how many there are")
         ->type_name("N,N")
         ->delimiter(',')
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->group(group);
 }
 
 void add_output_options(CLI::App& command, RunOptions& options) {
     const std::string group = "Output";
     command.add_option("--out", options.out, "output folder; default: out/<scene name>")
+        ->check(path_name())
         ->type_name("DIR")
         ->group(group);
     command.add_flag("--no-geometry", options.no_geometry, "write no geometry")->group(group);
@@ -159,7 +172,7 @@ void add_output_options(CLI::App& command, RunOptions& options) {
         .add_option("--checkpoint", options.checkpoint,
                     "seconds of work that a kill may cost; default: 10")
         ->type_name("SECONDS")
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->group(group);
     force->group(group)->excludes(resume);
     resume->group(group);
@@ -216,6 +229,22 @@ CLI::Validator one_of(std::vector<std::string> choices) {
     const auto check = [choices = std::move(choices)](const std::string& value) -> std::string {
         if (std::find(choices.begin(), choices.end(), value) != choices.end()) return "";
         return fmt::format("'{}' is unknown; {}", value, near_miss_or_list(value, choices));
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator above_zero() {
+    return number_where([](double value) { return value > 0.0; }, "a number above 0");
+}
+
+CLI::Validator zero_or_more() {
+    return number_where([](double value) { return value >= 0.0; }, "a number, 0 or more");
+}
+
+CLI::Validator path_name() {
+    const auto check = [](const std::string& value) -> std::string {
+        if (!value.empty() && !value.starts_with("--")) return "";
+        return fmt::format("'{}': expected the name of a file or folder", value);
     };
     return CLI::Validator(check, "");
 }

@@ -45,6 +45,13 @@ void add_stability_options(CLI::App& command, stability::StudyOptions& options);
 /// Accepts one of `choices`; otherwise suggests the nearest.
 CLI::Validator one_of(std::vector<std::string> choices);
 
+/// Accepts a finite number above 0, or of 0 and more.
+CLI::Validator above_zero();
+CLI::Validator zero_or_more();
+
+/// Accepts what can be a file's or folder's name; not the option behind an empty one.
+CLI::Validator path_name();
+
 /// The message and the near miss for a command line that CLI11 refused; one line.
 std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error);
 

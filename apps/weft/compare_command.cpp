@@ -126,7 +126,8 @@ void add_compare_command(CLI::App& app) {
     command->remove_option(command->get_option("--device"));
     command->add_option("--devices", options->devices, "device lists, separated by commas")
         ->delimiter(',');
-    command->add_option("--out", options->run.out, "folder of compare.json (out/<scene name>)");
+    command->add_option("--out", options->run.out, "folder of compare.json (out/<scene name>)")
+        ->check(path_name());
     command->footer(
         "Every list runs in a process of its own, and they take turns frame by frame, so that a\n"
         "change of the machine's speed meets all alike. The first 3 frames do not count. A "

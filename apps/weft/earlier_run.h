@@ -31,6 +31,7 @@ public:
                const RunDescription& run);
 
     int frames() const { return frames_; }
+    bool has_trace() const { return traced_ > 0; }
     bool has_geometry() const { return states_ > 0; }
 
     // Its frames, for the run that goes on; none where there is no such file.

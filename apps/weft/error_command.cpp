@@ -150,10 +150,13 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
     command
         .add_option("--max-iterations", options.max_iterations, "iterations that a curve goes to")
         ->capture_default_str();
-    command.add_option("--time", options.time,
-                       "seconds of measuring after which a curve has no further point (10; whole "
-                       "runs: 60)");
-    command.add_option("--out", options.run.out, "output folder; default: out/<scene name>");
+    command
+        .add_option("--time", options.time,
+                    "seconds of measuring after which a curve has no further point (10; whole "
+                    "runs: 60); the reference is not in it")
+        ->check(above_zero());
+    command.add_option("--out", options.run.out, "output folder; default: out/<scene name>")
+        ->check(path_name());
     CLI::Option* as_sweep = command.add_flag(
         "--as-sweep", options.as_sweep,
         "measure nothing, but make a sweep of it, a run per curve, for weft batch");

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/output_file.h"
 #include "apps/weft/pictures/gantt.h"
@@ -104,6 +105,7 @@ void add_gantt_command(CLI::App& trace) {
         ->add_option("--out", options->out,
                      "picture, .svg or .png; default: TRACE's name and folder, "
                      "-frameN-substepK.svg")
+        ->check(path_name())
         ->type_name("FILE");
     command->footer(
         "Arrows: a device needs what another one made, in the colour of the device that needs it;\n"

@@ -41,6 +41,12 @@ fs::path nearest_existing(fs::path path) {
     return path;
 }
 
+void check_length(const fs::path& path) {
+    std::error_code error;
+    static_cast<void>(fs::status(path / "frames.vtkhdf", error));
+    if (error == std::errc::filename_too_long) refuse(path, error.message());
+}
+
 void check_writable(const fs::path& path) {
     const fs::path there = nearest_existing(path);
     if (!fs::is_directory(there)) refuse(path, "'" + there.string() + "' is not a folder");
@@ -53,6 +59,7 @@ void check_writable(const fs::path& path) {
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
+    check_length(path_);
     if (is_finished(summary()) && !force) {
         refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
     }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/output_file.h"
 #include "apps/weft/perfetto.h"
@@ -66,6 +67,7 @@ void add_perfetto_command(CLI::App& trace) {
     command
         ->add_option("--out", options->out,
                      "file; default: beside TRACE, with the ending .perfetto.json")
+        ->check(path_name())
         ->type_name("FILE");
     command->footer(
         "Chrome's trace-event format: open the file at https://ui.perfetto.dev or in\n"

@@ -279,7 +279,7 @@ void add_adaptation_options(CLI::App& command, Adaptations& adaptations) {
                     "merge consecutive tasks of one kind and iteration until their average cost is "
                     "TIME; in a trace, seconds")
         ->type_name("TIME")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->group(group);
     command
         .add_option("--open-iterations", adaptations.open_iterations,
@@ -313,6 +313,7 @@ void add_machine_options(CLI::App& command, PlanOptions& options) {
         ->check(CLI::Range(1.0, 1e6));
     add("--device-counts", options.grid.devices, "numbers of devices")->check(CLI::Range(2, 16));
     command.add_option("--out", options.out, "folder; default: the trace's")
+        ->check(path_name())
         ->type_name("DIR")
         ->needs(machines)
         ->group(group);
@@ -358,7 +359,7 @@ void add_plan_command(CLI::App& app) {
         ->add_option("--time-limit", options->time_limit,
                      "seconds after which portfolio and optimal settle for the best plan so far")
         ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON document");
     add_adaptation_options(*command, options->adaptations);

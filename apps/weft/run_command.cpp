@@ -7,6 +7,7 @@
 #include "apps/weft/cli_support.h"
 #include "apps/weft/commands.h"
 #include "apps/weft/scene_run.h"
+#include "runtime/error.h"
 #include "runtime/io/json_text.h"
 
 namespace weft {
@@ -16,7 +17,13 @@ namespace {
 void run_scene(const RunOptions& options, bool keeps_checkpoint) {
     const InterruptNotice notice;
     SceneRun run(options, keeps_checkpoint);
-    run.advance_all(notice);
+    try {
+        run.advance_all(notice);
+    } catch (const RunError&) {
+        // There is no summary to say them then, and they may be why.
+        if (options.quiet) print_warnings(run.all_warnings());
+        throw;
+    }
     const RunSummary summary = run.finish();
     if (options.json)
         std::cout << json_text(to_json(summary)) << std::endl;

@@ -93,8 +93,9 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     settle_solver();
     set_up();
     complete_origin();
-    const RunDescription description = describe();
+    RunDescription description = describe();
     if (options_.resume) find_earlier(description);
+    description.warnings = all_warnings();
     claim_folder();
     summary_.emplace(description);
     if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
@@ -123,7 +124,6 @@ void SceneRun::settle_solver() {
 RunDescription SceneRun::describe() const {
     RunDescription description = describe_run(*simulation_, options_);
     if (!solver_choice_.empty()) description.settings.emplace_back("solver_choice", solver_choice_);
-    description.warnings = all_warnings();
     return description;
 }
 
@@ -162,6 +162,19 @@ void SceneRun::find_earlier(const RunDescription& description) {
                              .states = geometry_steps(checkpoint->frame)};
     earlier_.emplace(folder_, *checkpoint, outputs, description);
     simulation_->resume(*checkpoint);
+    warn_of_missing_outputs();
+}
+
+/// They may be gone, or the run has begun without them.
+void SceneRun::warn_of_missing_outputs() {
+    const auto warn = [&](const std::filesystem::path& file) {
+        warnings_.push_back(
+            fmt::format("{}: nothing of it is there from before frame {}, so it begins there",
+                        file.string(), earlier_->frames()));
+        if (!options_.quiet) print_warnings({warnings_.back()});
+    };
+    if (!options_.no_trace && !earlier_->has_trace()) warn(folder_.trace());
+    if (!options_.no_geometry && !earlier_->has_geometry()) warn(folder_.geometry());
 }
 
 void SceneRun::claim_folder() {
@@ -222,7 +235,6 @@ void SceneRun::say_what_runs() const {
     }
 }
 
-/// Of the scene, and of the devices.
 Warnings SceneRun::all_warnings() const {
     Warnings warnings = warnings_;
     if (options_.math != "strict") return warnings;

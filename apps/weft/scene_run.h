@@ -26,16 +26,18 @@ public:
     int frames_done() const { return simulation_->frame(); }
     int frame_count() const { return scene_.frames; }
     const OutputFolder& folder() const { return folder_; }
+    /// Of the scene, of its devices, and of what it goes on from.
+    Warnings all_warnings() const;
 
 private:
     void settle_solver();
     RunDescription describe() const;
     void set_up();
     void say_what_runs() const;
-    Warnings all_warnings() const;
     void complete_origin();
     std::string async_origin() const;
     void find_earlier(const RunDescription& description);
+    void warn_of_missing_outputs();
     void claim_folder();
     void take_over();
     void open_geometry();

@@ -125,10 +125,12 @@ void add_stability_options(CLI::App& command, StudyOptions& options) {
     command.add_option("--case", options.one_case, "only the case with this 'group: name'")
         ->excludes(only);
     command.add_option("--time", options.time, "seconds of trying settings of a scene")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--out", options.run.out,
-                       "output folder; default: out/stability; with a scene: none");
+    command
+        .add_option("--out", options.run.out,
+                    "output folder; default: out/stability; with a scene: none")
+        ->check(path_name());
     command.add_flag("--as-sweep", options.as_sweep,
                      "run nothing, but make a sweep of it, for weft batch");
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "simulation/scene/elements/element_keys.h"
@@ -170,6 +171,14 @@ void read_selection(const Node& table, const Shape& shape, Selection& selection)
     }
 }
 
+constexpr const char* kSelectionKeys = "corners, edges, rims, faces, parts, vertices or box";
+
+/// Also by a list that is empty: a sweep may have nothing selected in one of its runs.
+bool has_selection(const Node& table) {
+    constexpr std::array kKeys{"corners", "edges", "rims", "faces", "parts", "vertices", "box"};
+    return std::ranges::any_of(kKeys, [&](const char* key) { return table.find(key) != nullptr; });
+}
+
 bool names_any(const Selection& selection) {
     return !selection.corners.empty() || !selection.edges.empty() || !selection.rims.empty() ||
            !selection.faces.empty() || !selection.parts.empty() || !selection.vertices.empty() ||
@@ -182,6 +191,10 @@ std::vector<PinGroup> read_pins(const Node& table, const Shape& shape) {
     if (!list) return groups;
     for (const Node& node : list->array()) {
         PinGroup pins;
+        if (!has_selection(node)) {
+            throw UserError(
+                fmt::format("{}: pins: say which vertices: {}", node.mark.text(), kSelectionKeys));
+        }
         read_selection(node, shape, pins);
         pins.motion = read_motion(node, Vec3{});
         if (names_any(pins)) groups.push_back(std::move(pins));
@@ -225,9 +238,7 @@ Attachment read_attachment(const Node& table, const Scene& scene) {
     }
     read_selection(table, shape, attachment.selected);
     if (!names_any(attachment.selected)) {
-        throw value_error(
-            table, "a",
-            "say which of its vertices: corners, edges, rims, faces, parts, vertices or box");
+        throw value_error(table, "a", std::string("say which of its vertices: ") + kSelectionKeys);
     }
     attachment.stiffness = number_value(table, "stiffness");
     if (table.find("reach")) attachment.reach = number_value(table, "reach");

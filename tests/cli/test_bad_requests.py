@@ -211,6 +211,39 @@ def test_output_folder_that_cannot_be_made(folder):
     expect_error(run(folder, "--out", "/proc/weft"), 2, "--out /proc/weft")
 
 
+@pytest.mark.parametrize("name", ["", "--quiet"])
+def test_output_folder_without_a_name(folder, name):
+    """As it comes from a variable of a script that is not set."""
+    expect_error(run(folder, f"--out={name}" if name else "--out=", "--no-trace"), 2, "--out",
+                 "expected the name of a file or folder")
+    assert not (folder / "--no-trace").exists()
+
+
+def test_output_folder_whose_name_is_too_long(folder):
+    expect_error(run(folder, "--out", 300 * "x"), 2, "--out xxx", "too long")
+
+
+@pytest.mark.parametrize("option, value", [("--checkpoint", "-1"), ("--checkpoint", "nan"),
+                                           ("--checkpoint", "inf"), ("--strips", "a,b")])
+def test_numbers_that_are_none(folder, option, value):
+    expect_error(run(folder, option, value), 2, option, f"'{value.split(',')[0]}'",
+                 "expected a number, 0 or more")
+
+
+def test_warnings_of_the_start_of_a_quiet_run_that_fails(folder):
+    (folder / "scene.toml").write_text(SHEET + """
+[[obstacle]]
+shape = "sphere"
+center = [0.0, 0.0, 0.0]
+radius = 5.0
+[guard]
+max_speed = 1.0
+""")
+    result = run(folder, "--quiet")
+    assert result.returncode == 1
+    assert "start inside" in result.stderr
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason="nothing is read-only for root")
 def test_read_only_output_folder(folder):
     (folder / "locked").mkdir(mode=0o555)

@@ -166,6 +166,7 @@ def test_a_run_that_began_without_outputs_goes_on_with_them(folder, number):
     assert run(folder, "--resume").returncode == 0
     assert run(folder, "--out", "out/whole").returncode == 0
     assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]
+    assert summary_of(folder)["warnings"] == []  # the second time, they went on
     with h5py.File(folder / "out/sheet/trace.h5") as trace:
         frames = list(trace["frames"]["frame"])
         assert 0 < frames[0] < FRAMES
@@ -176,6 +177,17 @@ def test_a_run_that_began_without_outputs_goes_on_with_them(folder, number):
     assert 0 < len(times) < len(all_times)
     assert numpy.array_equal(times, all_times[-len(times):])
     assert numpy.array_equal(points, all_points[-len(points):])
+
+
+def test_what_is_gone_is_warned_of(folder):
+    interrupt(folder, signal.SIGTERM, 4)
+    for name in ["trace.h5", "frames.vtkhdf"]:
+        (folder / "out/sheet" / name).unlink()
+    result = weft("run", "scene.toml", "--device", "cpu/1", "--resume", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    for name in ["trace.h5", "frames.vtkhdf"]:
+        assert f"{name}: nothing of it is there from before frame" in result.stderr
+        assert any(name in warning for warning in summary_of(folder)["warnings"])
 
 
 def test_outputs_that_a_run_goes_on_without_are_left(folder):

@@ -119,6 +119,16 @@ TEST(AsyncLosses, AWindowOfOneLosesNothing) {
     }
 }
 
+/// By xpbd more iterations may make a larger error, and both ways then get by with fewer.
+TEST(AsyncLosses, BothWaysNeedAsManyAsTheirErrorsDo) {
+    for (const int iterations : {4, 6}) {
+        Scene scene = read_scene(std::string(WEFT_SCENES) + "/tablecloth.toml");
+        scene.solver.iterations = iterations;
+        AsyncLoss loss = loss_of(scene, 15);
+        EXPECT_EQ(loss.factor(parse_async_settings("window=1"), 2), 1.0) << iterations;
+    }
+}
+
 TEST(AsyncLosses, OlderNewsCostMore) {
     AsyncLoss loss = loss_of(hanging(Method::kVbd, 12));
     const auto one = loss.factor(parse_async_settings("window=2"), 2);

@@ -147,6 +147,8 @@ const Mistake kMistakes[] = {
      "another cloth or solid has the name 'sheet'"},
     {"CornerOfGridOnBlock", "\"x+y+z+\"", "\"x+z+\"",
      "solid[0].pins.corners[0] = \"x+z+\": unknown; known: x-y-z-"},
+    {"PinsOfNothing", "pins = { faces = [\"x-\"], corners = [\"x+y+z+\"] }", "pins = {}",
+     "pins: say which vertices: corners, edges"},
     {"UnknownFace", "faces = [\"x-\"]", "faces = [\"w-\"]", "unknown"},
     {"AttachmentToNothing", "b = \"brick\"", "b = \"bricks\"",
      "b = \"bricks\": no cloth or solid has this name; did you mean 'brick'?"},
