@@ -38,14 +38,22 @@ int fail(int exit_code, const std::string& message) {
     return exit_code;
 }
 
+/// The exit code of a command that has done what it was asked to.
+int end_of_output() {
+    if (std::cout.flush()) return EXIT_SUCCESS;
+    return fail(kRunFailed, "standard output cannot be written");
+}
+
 int run(CLI::App& app, int argc, char** argv) {
     try {
         app.parse(argc, argv);
-        if (!std::cout.flush()) return fail(kRunFailed, "standard output cannot be written");
-        return EXIT_SUCCESS;
+        return end_of_output();
     } catch (const CLI::ParseError& error) {
         // Help, version and the like come as errors of code 0, and print themselves.
-        if (error.get_exit_code() == 0) return app.exit(error);
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return end_of_output();
+        }
         return fail(kWrongRequest, describe_parse_error(app, error));
     } catch (const UserError& error) {
         return fail(kWrongRequest, error.what());

@@ -10,6 +10,7 @@
 #include "apps/weft/progress.h"
 #include "apps/weft/run_record.h"
 #include "runtime/clock.h"
+#include "runtime/device_list.h"
 #include "runtime/error.h"
 #include "runtime/io/cache_folder.h"
 #include "runtime/unused_memory.h"
@@ -178,7 +179,14 @@ void SceneRun::warn_of_missing_outputs() {
 }
 
 void SceneRun::claim_folder() {
-    if (!earlier_) return folder_.claim();
+    if (!earlier_) {
+        folder_.claim();
+        if (folder_.replaces_unfinished() && !options_.resume && !options_.quiet) {
+            std::cerr << fmt::format("weft: {}: replacing a run that did not finish\n",
+                                     folder_.path().string());
+        }
+        return;
+    }
     std::vector<std::filesystem::path> outputs;
     if (!options_.no_trace) outputs.push_back(folder_.trace());
     if (!options_.no_geometry) outputs.push_back(folder_.geometry());
@@ -199,6 +207,7 @@ void SceneRun::take_over() {
 }
 
 void SceneRun::set_up() {
+    check_device_list(options_.device);
     const SimulationOptions settings = options_.simulation();
     if (!options_.quiet) {
         std::cerr << fmt::format("weft: {}: setting up on {}{}\n", scene_.name, options_.device,
@@ -211,10 +220,6 @@ void SceneRun::set_up() {
 
 void SceneRun::say_what_runs() const {
     print_warnings(all_warnings());
-    if (folder_.replaces_unfinished() && !options_.resume) {
-        std::cerr << fmt::format("weft: {}: replacing a run that did not finish\n",
-                                 folder_.path().string());
-    }
     std::vector<std::string> devices;
     for (const auto& device : simulation_->devices()) {
         const DeviceInfo& info = device->info();

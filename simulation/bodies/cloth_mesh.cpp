@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "runtime/error.h"
+#include "simulation/bodies/mesh_files.h"
 #include "simulation/bodies/selection.h"
 #include "simulation/bodies/welds.h"
 #include "simulation/mesh/generators.h"
@@ -14,6 +15,7 @@ namespace weft {
 namespace {
 
 TriangleMesh read_checked(const MeshFile& file, Warnings& warnings) {
+    check_there(file);
     const std::string& path = file.path;
     TriangleMesh mesh = file.rest.empty() ? read_obj(path, warnings)
                                           : read_obj_with_rest(path, file.rest, warnings);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "runtime/error.h"
@@ -29,6 +30,15 @@ std::vector<BodyMesh> mesh_files(const Scene& scene) {
         }
     }
     return list;
+}
+
+void check_there(const MeshFile& file) {
+    for (const std::string& path : {file.path, file.rest}) {
+        std::error_code ignored;
+        if (path.empty() || std::filesystem::exists(path, ignored)) continue;
+        const std::string where = file.where.empty() ? "" : file.where + ": ";
+        throw UserError(where + path + ": no such mesh file");
+    }
 }
 
 std::string file_hash(const std::string& path) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "runtime/error.h"
+#include "simulation/bodies/mesh_files.h"
 #include "simulation/bodies/selection.h"
 #include "simulation/mesh/generators.h"
 #include "simulation/mesh/tet_checks.h"
@@ -12,7 +13,9 @@
 namespace weft {
 namespace {
 
-TetMesh read_checked(const std::string& path, Warnings& warnings) {
+TetMesh read_checked(const MeshFile& file, Warnings& warnings) {
+    check_there(file);
+    const std::string& path = file.path;
     TetMesh mesh = read_tetrahedra(path);
     if (mesh.vertex_count() > kMaxVertices) {
         throw UserError(fmt::format("{}: {} vertices are more than the {} that indices can count",
@@ -34,7 +37,7 @@ TetMesh block_of(const BlockShape& block) {
 TetMesh build_solid_mesh(const Solid& solid, Warnings& warnings) {
     const auto* block = std::get_if<BlockShape>(&solid.shape);
     TetMesh mesh =
-        block ? block_of(*block) : read_checked(std::get<MeshFile>(solid.shape).path, warnings);
+        block ? block_of(*block) : read_checked(std::get<MeshFile>(solid.shape), warnings);
     place(mesh.positions, solid.transform);
     check_volumes(mesh);
     return mesh;

@@ -48,7 +48,7 @@ Shape read_cloth_shape(const Node& table, const std::string& scene_path) {
                          pair_of(integer_values(*grid, "resolution"))};
     }
     if (const Node* cylinder = table.find("cylinder")) return read_cylinder(*cylinder);
-    MeshFile file{mesh_path(table, scene_path)};
+    MeshFile file{mesh_path(table, scene_path), {}, table.mark.text()};
     if (table.find("rest")) file.rest = mesh_path(table, scene_path, "rest");
     return file;
 }
@@ -92,7 +92,7 @@ BlockShape read_block(const Node& grid) {
 
 Shape read_solid_shape(const Node& table, const std::string& scene_path) {
     if (const Node* grid = table.find("grid")) return read_block(*grid);
-    return MeshFile{mesh_path(table, scene_path)};
+    return MeshFile{mesh_path(table, scene_path), {}, table.mark.text()};
 }
 
 Transform read_transform(const Node& table) {

@@ -60,8 +60,9 @@ struct BlockShape {
 
 /// Of cloth a Wavefront OBJ file, of a solid a Gmsh (.msh) or VTK (.vtk) file.
 struct MeshFile {
-    std::string path;    ///< already joined to the scene's folder
-    std::string rest{};  ///< of cloth: its shape at rest, another such file; empty: the same
+    std::string path;     ///< already joined to the scene's folder
+    std::string rest{};   ///< of cloth: its shape at rest, another such file; empty: the same
+    std::string where{};  ///< in the scene file, for messages
 };
 
 struct Rotation {

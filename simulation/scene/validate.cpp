@@ -83,7 +83,9 @@ void check_number(const Node& node, const Key& key, const std::string& path) {
         return check_range(node, key, path, static_cast<double>(*integer));
     }
     const auto* number = std::get_if<double>(&node.value);
-    if (!number || key.type == Type::kInteger) fail(node, path, expected(key));
+    if (!number) fail(node, path, expected(key));
+    // As a number is shown, it may look like the integer that it is none of.
+    if (key.type == Type::kInteger) fail(node, path, expected(key) + ", without a point");
     check_range(node, key, path, *number);
 }
 

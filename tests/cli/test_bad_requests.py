@@ -143,7 +143,7 @@ def test_solid_mesh(folder, name):
 def test_missing_solid_mesh_and_wrong_ending(folder):
     use_solid(folder, MSH)
     (folder / "body.msh").unlink()
-    expect_refused(folder, run(folder), "body.msh", "no such mesh file")
+    expect_refused(folder, run(folder), "scene.toml:", "body.msh", "no such mesh file")
     use_solid(folder, MSH, "stl")
     expect_refused(folder, run(folder), "body.stl", ".msh", ".vtk")
 
@@ -217,6 +217,13 @@ def test_output_folder_without_a_name(folder, name):
     expect_error(run(folder, f"--out={name}" if name else "--out=", "--no-trace"), 2, "--out",
                  "expected the name of a file or folder")
     assert not (folder / "--no-trace").exists()
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--print-schema"]])
+def test_help_that_cannot_be_written(folder, arguments):
+    result = weft(*arguments, cwd=folder, launcher=["bash", "-c", '"$@" > /dev/full', "bash"])
+    assert result.returncode == 1
+    assert "standard output cannot be written" in result.stderr
 
 
 def test_output_folder_whose_name_is_too_long(folder):
