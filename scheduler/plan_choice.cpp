@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft::scheduler {
 
 PlanChoice::PlanChoice(std::uint32_t alternatives, const PlanChoiceSettings& settings)
@@ -44,9 +46,7 @@ void PlanChoice::measured(std::uint32_t alternative, double planned, double seco
 
 void PlanChoice::update_median(History& history) {
     sorted_ = history.ratios;
-    const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
-    std::nth_element(sorted_.begin(), middle, sorted_.end());
-    history.median = *middle;
+    history.median = middle_of(sorted_);
 }
 
 }  // namespace weft::scheduler

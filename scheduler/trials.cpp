@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft::scheduler {
 
 namespace {
@@ -34,12 +36,6 @@ bool Trials::is_over(double ratio) const {
     return frame_ >= settings_.frames || (!ratios_.empty() && ratio > settings_.hopeless);
 }
 
-double Trials::median_ratio() {
-    const auto middle = ratios_.begin() + static_cast<std::ptrdiff_t>(ratios_.size() / 2);
-    std::ranges::nth_element(ratios_, middle);
-    return *middle;
-}
-
 std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
     probes_.end_frame(seconds);
     if (!running_) return std::nullopt;
@@ -49,7 +45,7 @@ std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
     if (!is_over(seconds / to_beat)) return std::nullopt;
     running_ = false;
     probes_.paid(alternative_, std::max(0.0, charge_));
-    return median_ratio() < 1.0 - settings_.margin ? std::optional(alternative_) : std::nullopt;
+    return middle_of(ratios_) < 1.0 - settings_.margin ? std::optional(alternative_) : std::nullopt;
 }
 
 }  // namespace weft::scheduler

@@ -54,7 +54,6 @@ public:
 private:
     void begin(std::uint32_t alternative);
     bool is_over(double ratio) const;
-    double median_ratio();
 
     TrialSettings settings_;
     ProbePolicy probes_;

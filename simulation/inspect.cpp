@@ -83,6 +83,7 @@ std::vector<Inspection::Dataset> find_datasets(const Model& model) {
     return {{"run/scene", {}},
             {"run/kinds", {}},
             {"run/energies", {}},
+            {"run/warnings", {}},
             {"run/devices", {}},
             {"frames", columns_of(trace::frame_row_type(1))},
             {"plan", columns_of(trace::plan_row_type())},
@@ -90,6 +91,7 @@ std::vector<Inspection::Dataset> find_datasets(const Model& model) {
             {"dependencies", columns_of(trace::dependency_row_type())},
             {"executions", columns_of(trace::execution_row_type())},
             {"costs", columns_of(trace::cost_row_type())},
+            {"warnings", columns_of(trace::warning_row_type())},
             {"energies", columns_of(trace::energy_row_type(energy_names(model)))}};
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft {
 
 namespace {
@@ -13,8 +15,7 @@ namespace {
 double quantile(const std::vector<FrameSample>& frames, double FrameSample::*value, double part) {
     std::vector<double> values;
     for (const FrameSample& frame : frames) values.push_back(frame.*value);
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1) + 0.5)];
+    return scheduler::quantile(std::move(values), part);
 }
 
 const ComparisonRow* find_row(const std::vector<ComparisonRow>& rows, const std::string& devices) {

@@ -6,6 +6,7 @@
 #include "kernels/motion.h"
 #include "runtime/clock.h"
 #include "runtime/executor.h"
+#include "scheduler/order_statistics.h"
 
 namespace weft {
 
@@ -35,9 +36,7 @@ double least_time(int rounds, const std::function<void()>& action) {
 
 double median_time(int rounds, const std::function<void()>& action) {
     std::vector<double> times = times_of(rounds, action);
-    const auto middle = times.begin() + rounds / 2;
-    std::nth_element(times.begin(), middle, times.end());
-    return *middle;
+    return scheduler::middle_of(times);
 }
 
 /// The cheapest kernel of all, over a handful of vertices in buffers of any size.

@@ -154,7 +154,7 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
         .add_option("--time", options.time,
                     "seconds of measuring after which a curve has no further point (10; whole "
                     "runs: 60); the reference is not in it")
-        ->check(above_zero());
+        ->check(zero_or_more());
     command.add_option("--out", options.run.out, "output folder; default: out/<scene name>")
         ->check(path_name());
     CLI::Option* as_sweep = command.add_flag(

@@ -75,7 +75,9 @@ std::string JsonFile::shown(const Json& value) {
 
 double JsonFile::number(const Json& value, const std::string& field,
                         const std::string& expected) const {
+    constexpr double kMost = 1e100;  // sums and products of such are finite
     const double number = value.is_number() ? value.get<double>() : -1.0;
+    if (number > kMost) fail(field, fmt::format("must be at most {}, not {}", kMost, shown(value)));
     if (std::isfinite(number) && number >= 0.0) return number;
     fail(field, fmt::format("expected {}, not {}", expected, shown(value)));
 }

@@ -91,6 +91,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
       scene_(read_scene(options.scene, options.overrides())),
       origin_(origin_of(options, scene_)),
       folder_(folder_for(options, scene_), options.force) {
+    if (!options.no_geometry) check_states();
     settle_solver();
     set_up();
     complete_origin();
@@ -103,6 +104,17 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     if (!options_.no_geometry) open_geometry();
     if (earlier_) take_over();
     last_checkpoint_ = now();
+}
+
+/// Their file is laid out in advance, with some 500 bytes for each of them.
+void SceneRun::check_states() const {
+    constexpr std::size_t kMost = 1'000'000;
+    const std::size_t states = geometry_steps(scene_.frames);
+    if (states <= kMost) return;
+    throw UserError(
+        fmt::format("{}: geometry would have {} states, and the most are {}; a larger "
+                    "[output] every leaves some out, --no-geometry all of them",
+                    options_.scene, states, kMost));
 }
 
 /// Measured once: a run that goes on has the solver that it began with.

@@ -30,6 +30,7 @@ public:
     Warnings all_warnings() const;
 
 private:
+    void check_states() const;
     void settle_solver();
     RunDescription describe() const;
     void set_up();

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft {
 
-namespace {
-
-/// Of two in the middle the lower one: what waited takes longer.
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Feedback::Feedback(std::size_t kinds, std::size_t devices, std::uint32_t alternatives)
     : timing_(kinds, devices), choice_(alternatives) {}
@@ -43,7 +36,8 @@ void Feedback::find_typical(const FramePlan& plan, const std::vector<double>& se
         if (cost_[t] > 0.0) ratios_[cell(t)].push_back(seconds[t] / cost_[t]);
     }
     for (auto& ratios : ratios_) {
-        if (!ratios.empty()) ratios.front() = median(ratios);
+        // Of two in the middle the lower one: what waited takes longer.
+        if (!ratios.empty()) ratios.front() = scheduler::quantile(ratios, 0.5);
     }
     typical_ = seconds;
     for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft {
 
 namespace {
@@ -14,12 +16,6 @@ constexpr double kFading = 0.95;  ///< of a latency, per frame in which it is hi
 constexpr double kShortestLatency = 1e-6, kLongestLatency = 5e-3;
 /// Shorter copies say more of the latency than of the bandwidth [bytes].
 constexpr std::uint64_t kLongCopy = 32768;
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 }  // namespace
 
@@ -137,18 +133,20 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
 
 /// Where no device waited, a latency is no longer than what passed without a wait; and it is taken
 /// for shorter and shorter, or nobody would find out whether it still is as long as it was.
-void TimingModel::learn_latencies(const std::vector<Exchanges>& exchanges) {
+void TimingModel::learn_latencies(std::vector<Exchanges>& exchanges) {
     for (std::size_t link = 0; link < exchanges.size(); ++link) {
-        const auto& [waited, hidden] = exchanges[link];
+        auto& [waited, hidden] = exchanges[link];
         double& latency = links_[link].latency;
         unseen_[link] = std::min(unseen_[link] + 1, kOldFrames);
         if (!waited.empty()) {
             const double weight = unseen_[link] == kOldFrames ? 1.0 : 0.3;
-            const double measured = std::clamp(median(waited), kShortestLatency, kLongestLatency);
+            const double measured =
+                std::clamp(scheduler::middle_of(waited), kShortestLatency, kLongestLatency);
             latency += weight * (measured - latency);
             unseen_[link] = 0;
         } else if (!hidden.empty()) {
-            latency = std::max(kShortestLatency, kFading * std::min(latency, median(hidden)));
+            latency = std::max(kShortestLatency,
+                               kFading * std::min(latency, scheduler::middle_of(hidden)));
         }
     }
 }

@@ -56,7 +56,7 @@ private:
     }
     std::vector<Arrival> find_arrivals(const Step& step, const scheduler::Plan& plan,
                                        const RunTimes& times, int instances) const;
-    void learn_latencies(const std::vector<Exchanges>& exchanges);
+    void learn_latencies(std::vector<Exchanges>& exchanges);
     void learn_bandwidths(const std::vector<CopyRecord>& copies);
 
     std::size_t devices_;

@@ -12,20 +12,13 @@
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
 #include "runtime/io/whole_file.h"
+#include "scheduler/order_statistics.h"
 
 namespace weft {
 
 namespace {
 
-/// Nearest rank: the smallest value that `share` of all values do not exceed.
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return 0.0;
-    const double rank = std::ceil(share * static_cast<double>(values.size()));
-    const std::size_t index = rank < 1.0 ? 0 : static_cast<std::size_t>(rank) - 1;
-    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(index);
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
+using scheduler::quantile;
 
 double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 

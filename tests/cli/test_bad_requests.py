@@ -226,6 +226,11 @@ def test_help_that_cannot_be_written(folder, arguments):
     assert "standard output cannot be written" in result.stderr
 
 
+def test_more_states_than_geometry_has_room_for(folder):
+    expect_refused(folder, run(folder, "--frames", "1000000"), "scene.toml", "1000001 states",
+                   "--no-geometry")
+
+
 def test_output_folder_whose_name_is_too_long(folder):
     expect_error(run(folder, "--out", 300 * "x"), 2, "--out xxx", "too long")
 

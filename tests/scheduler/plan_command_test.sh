@@ -98,6 +98,8 @@ expect_error 'graph.json: tasks[0].cost[1]: expected a finite number >= 0' \
     "$(graph '{"name": "a", "cost": [1, -2]}' '')"
 expect_error 'graph.json: tasks[0].cost[0]: expected a finite number >= 0' \
     "$(graph '{"name": "a", "cost": ["1", 2]}' '')"
+expect_error 'graph.json: tasks[0].cost[0]: must be at most 1e+100, not 1e+308' \
+    "$(graph '{"name": "a", "cost": [1e308, 2]}' '')"
 expect_error 'graph.json: not JSON: number overflow' "$(graph '{"name": "a", "cost": [1e999, 2]}' '')"
 expect_error 'graph.json:1:' "$(graph '{"name": "a", "cost": [NaN, 2]}' '')"
 expect_error "graph.json: tasks[0].cost: no processor can run task 'a'" \

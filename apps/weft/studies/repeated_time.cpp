@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scheduler/order_statistics.h"
+
 namespace weft {
 
 namespace {
@@ -12,12 +14,6 @@ constexpr std::size_t kMost = 25;
 /// Of the median's standard error, relative to it.
 constexpr double kSettled = 0.02;
 
-double middle_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 }  // namespace
 
 void RepeatedTime::add(double seconds) {
@@ -25,7 +21,10 @@ void RepeatedTime::add(double seconds) {
     total_ += seconds;
 }
 
-double RepeatedTime::median() const { return middle_of(times_); }
+double RepeatedTime::median() const {
+    std::vector<double> times = times_;
+    return scheduler::middle_of(times);
+}
 
 /// The standard error is that of normal noise, 1.253 sigma / sqrt(n), with sigma = 1.4826 times the
 /// median distance from the median: outliers do not count.
@@ -35,7 +34,7 @@ bool RepeatedTime::is_settled() const {
     const double middle = median();
     std::vector<double> distances;
     for (const double time : times_) distances.push_back(std::abs(time - middle));
-    const double error = 1.253 * 1.4826 * middle_of(std::move(distances)) /
+    const double error = 1.253 * 1.4826 * scheduler::middle_of(distances) /
                          std::sqrt(static_cast<double>(times_.size()));
     return error <= kSettled * middle;
 }
