@@ -1,5 +1,6 @@
 """Every mistake in a request: one message that says what and where, exit code 2, no output folder."""
 
+import json
 import os
 import pathlib
 
@@ -224,6 +225,15 @@ def test_help_that_cannot_be_written(folder, arguments):
     result = weft(*arguments, cwd=folder, launcher=["bash", "-c", '"$@" > /dev/full', "bash"])
     assert result.returncode == 1
     assert "standard output cannot be written" in result.stderr
+
+
+def test_output_folder_whose_name_is_no_utf_8(folder):
+    """Only what is written as JSON has to be, and there it is replaced."""
+    name = os.fsdecode(b"out\xe9")
+    result = run(folder, "--out", name, "--json", "--quiet")
+    assert result.returncode == 0, result.stderr
+    assert json.loads(result.stdout)["finished"]
+    assert json.loads((folder / name / "summary.json").read_text())["finished"]
 
 
 def test_more_states_than_geometry_has_room_for(folder):
