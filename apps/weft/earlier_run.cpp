@@ -54,7 +54,8 @@ void EarlierRun::open_trace(const fs::path& file, const RunDescription& run) {
     trace_.emplace(file);
     check_devices(file, trace_->run(), run);
     const auto& frames = trace_->frames();
-    const std::size_t first = frames.empty() ? 0 : frames.front().frame;
+    if (frames.empty()) return;  // killed before there was one
+    const std::size_t first = frames.front().frame;
     traced_ =
         count_before(static_cast<std::size_t>(frames_), first, frames.size(), file, "--no-trace");
 }
@@ -62,8 +63,9 @@ void EarlierRun::open_trace(const fs::path& file, const RunDescription& run) {
 void EarlierRun::open_geometry(const fs::path& file, const Outputs& outputs) {
     if (!fs::exists(file)) return;
     geometry_.emplace(file);
-    const double begin = geometry_->steps() == 0 ? 0.0 : geometry_->time(0);
-    const auto first = static_cast<std::size_t>(std::lround(begin / outputs.state_interval));
+    if (geometry_->steps() == 0) return;
+    const auto first =
+        static_cast<std::size_t>(std::lround(geometry_->time(0) / outputs.state_interval));
     states_ = count_before(outputs.states, first, geometry_->steps(), file, "--no-geometry");
 }
 

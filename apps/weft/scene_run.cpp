@@ -180,6 +180,7 @@ void SceneRun::find_earlier(const RunDescription& description) {
 
 /// They may be gone, or the run has begun without them.
 void SceneRun::warn_of_missing_outputs() {
+    if (earlier_->frames() == 0) return;
     const auto warn = [&](const std::filesystem::path& file) {
         warnings_.push_back(
             fmt::format("{}: nothing of it is there from before frame {}, so it begins there",

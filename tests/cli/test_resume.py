@@ -179,6 +179,29 @@ def test_a_run_that_began_without_outputs_goes_on_with_them(folder, number):
     assert numpy.array_equal(points, all_points[-len(points):])
 
 
+def test_a_trace_without_a_frame_goes_on(folder):
+    """As it is left by a run that goes on with one, and is killed before its first frame."""
+    (folder / "scene.toml").write_text(SCENE.replace("substeps = 400", "substeps = 4"))
+    assert run(folder, "--frames", "1", "--out", "out/empty").returncode == 0
+    with h5py.File(folder / "out/empty/trace.h5", "r+") as trace:
+        for name in trace:
+            if isinstance(trace[name], h5py.Dataset):
+                trace[name].resize(0, axis=0)
+    (folder / "scene.toml").write_text(SCENE)
+    interrupt(folder, signal.SIGTERM, 2, "--no-trace")
+    (folder / "out/empty/trace.h5").rename(folder / "out/sheet/trace.h5")
+    assert run(folder, "--resume").returncode == 0
+    assert run(folder, "--out", "out/whole").returncode == 0
+    assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]
+    assert any("trace.h5" in warning for warning in summary_of(folder)["warnings"])
+
+
+def test_stopped_before_the_first_frame(folder):
+    interrupt(folder, signal.SIGTERM, 1)
+    assert run(folder, "--resume").returncode == 0
+    assert summary_of(folder)["warnings"] == []
+
+
 def test_what_is_gone_is_warned_of(folder):
     interrupt(folder, signal.SIGTERM, 4)
     for name in ["trace.h5", "frames.vtkhdf"]:
