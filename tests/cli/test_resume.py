@@ -197,8 +197,9 @@ def test_a_trace_without_a_frame_goes_on(folder):
 
 
 def test_stopped_before_the_first_frame(folder):
-    interrupt(folder, signal.SIGTERM, 1)
+    interrupt(folder, signal.SIGTERM, 0)  # in its first frame, or before it
     assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
     assert summary_of(folder)["warnings"] == []
 
 
