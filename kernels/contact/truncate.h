@@ -111,10 +111,20 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
 ///            way, 2 where it found no place that all its planes and its ball allow, else 0
 /// soft       what stays between plane and vertex where only that has to yield [m]
 /// hard       what stays at least [m]
+/// all_from   the iteration from which on vertices without planes are held in their balls, too:
+///            nobody sees them before
 WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
                    WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float* least,
                    WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
-                   WEFT_GLOBAL const float4* planes, WEFT_GLOBAL int* cut, float soft, float hard) {
+                   WEFT_GLOBAL const float4* planes, WEFT_GLOBAL int* cut, float soft, float hard,
+                   int iteration, int all_from) {
+    const real nearest = load(least, i);
+    const mask has_planes = nearest < splat(WEFT_NO_PLANE);
+    const int all = iteration >= all_from;
+    if (!all && !any_item(has_planes)) {
+        store_whole(cut, i, splat_whole(0));
+        return;
+    }
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const real4 x = load4(positions, i);
@@ -122,11 +132,11 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
     const real3 anchor = xyz(ball);
     const real3 wanted = subtract(xyz(x), anchor);
     const real radius = ball.w;
-    const real nearest = load(least, i);
     const real free = larger(smaller(nearest - splat(soft), radius), zero);
     // A plane that comes over the anchor has to be looked at even by what does not move.
     const real pushed = nearest < zero ? one : dot3(wanted, wanted) - free * free;
-    const real excess = x.w > zero ? pushed : zero;
+    const real asked = all ? pushed : (has_planes ? pushed : zero);
+    const real excess = x.w > zero ? asked : zero;
     const mask out = excess > zero;
     whole result = splat_whole(0);
     if (any_item(out)) {

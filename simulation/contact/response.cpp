@@ -193,7 +193,7 @@ void ContactResponse::make_fill() {
     if (sticking_) sticking_->add_recall(fill_.launches);
     if (!model_.scene.contact->planes) return;
     fill_.launches.insert(fill_.launches.begin() + 2,
-                          truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_));
+                          truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
     ++showing_;
 }
 
@@ -321,10 +321,10 @@ void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int
     rows().add_reads(task, first_strip, end_strip, first, last);
 }
 
-Launch ContactResponse::truncation(Buffer<float4>& positions, float soft) {
+Launch ContactResponse::truncation(Buffer<float4>& positions, float soft, int all_from) {
     return launch(kernels::truncate_contacts, model_.vertices(), positions, anchors_, least_,
                   planes_table_.rows(), planes_table_.counts(), planes_, cut_, soft,
-                  kHardSlack * floor_);
+                  kHardSlack * floor_, kIteration, all_from);
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
@@ -332,9 +332,10 @@ Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
                   model_.vertex_count(), kIteration, ahead);
 }
 
-void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions) {
+void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions,
+                                     int all_from) {
     if (!model_.scene.contact->planes) return;
-    launches.push_back(truncation(positions, kSoftSlack * floor_));
+    launches.push_back(truncation(positions, kSoftSlack * floor_, all_from));
 }
 
 void ContactResponse::add_truncation_accesses(Step::Adding& task, int first, int last) {

@@ -59,7 +59,9 @@ public:
     void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
     /// Takes vertices back to where contacts allow them to be. Nothing moves them behind it.
-    void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions);
+    /// all_from: the iteration from which on it is done with vertices that have no pairs, too;
+    /// until then nothing else knows whether they stay in their balls
+    void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions, int all_from = 0);
     /// What that needs of its own strips.
     void add_truncation_accesses(Step::Adding& task, int first, int last);
     /// Shows the positions to all in the next iteration.
@@ -122,7 +124,7 @@ private:
     Launch gather_from(const Segments& segments, Buffer<float4>& positions,
                        Buffer<float4>& snapshots, int second_half, VertexItems& items,
                        Buffer<float>& sums);
-    Launch truncation(Buffer<float4>& positions, float soft);
+    Launch truncation(Buffer<float4>& positions, float soft, int all_from);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
     int substeps_wanted() const;

@@ -33,7 +33,8 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     }
     substep_.momentum().add_obstacles(sweep.strips.launches, *model_.positions);
     if (contact == nullptr) return;
-    contact->add_truncation(sweep.strips.launches, *model_.positions);
+    contact->add_truncation(sweep.strips.launches, *model_.positions,
+                            model_.scene.solver.iterations - 1);
     contact->add_snapshot(sweep.strips.launches, *model_.positions);
 }
 

@@ -171,7 +171,8 @@ private:
         push_ = new_kind("push");
         projection_->add_project(push_.launches);
         add_obstacles(push_);
-        contact_->add_truncation(push_.launches, *model_.positions);
+        contact_->add_truncation(push_.launches, *model_.positions,
+                                 model_.scene.solver.iterations - 1);
     }
 
     void make_predict() {

@@ -88,8 +88,10 @@ void truncate_case(KernelCase& c) {
     }
     auto& cut = c.add<int>("cut", c.items);
     c.launch = launch(kernels::truncate_contacts, c.segments, positions, anchors, least,
-                      planes.rows, planes.counts, entries, cut, 0.02f, 0.005f);
+                      planes.rows, planes.counts, entries, cut, 0.02f, 0.005f, kIteration,
+                      c.flavour == Flavour::kRandom ? 0 : 1);
 }
+
 void gather_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& snapshots = add_points(c, "snapshots", 2 * c.items);

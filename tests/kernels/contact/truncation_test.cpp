@@ -25,7 +25,8 @@ struct Cut {
     bool is_lost = false;
 };
 
-Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes) {
+/// all_from: the iteration, counted from this one, from which on the ball alone is a reason
+Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes, int all_from = 0) {
     Buffer<int> begin("strips", 2);
     begin[1] = 1;
     RowTable table("planes", {&begin, 0, 1, 1}, static_cast<int>(planes.size()));
@@ -43,8 +44,9 @@ Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes) 
         column[RowTable::kStride * k] = planes[k];
         least[0] = std::min(least[0], planes[k].w);
     }
-    const Launch one = launch(kernels::truncate_contacts, Segments{}, positions, anchors, least,
-                              table.rows(), table.counts(), column, cut, kSoft, kHard);
+    const Launch one =
+        launch(kernels::truncate_contacts, Segments{}, positions, anchors, least, table.rows(),
+               table.counts(), column, cut, kSoft, kHard, kIteration, all_from);
     run_on_host(one, one.kernel->scalar, 0, 1);
     return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1, cut[0] == 2};
 }
@@ -103,6 +105,17 @@ void expect_before(const std::vector<float4>& planes, Vec3 end) {
 }
 
 /// Whatever is asked for, all planes hold, and the ball.
+TEST(Truncation, BallsWithoutPlanesWait) {
+    constexpr int kLater = 1;
+    const float4 anchor{0, 0, 0, 0.01f};
+    const Cut waits = truncate(anchor, {0.02, 0, 0}, {}, kLater);
+    EXPECT_FALSE(waits.is_cut);
+    EXPECT_EQ(waits.at.x, static_cast<double>(0.02f));
+    const Cut has_a_plane = truncate(anchor, {0.02, 0, 0}, {{0, 1, 0, 0.02f}}, kLater);
+    EXPECT_TRUE(has_a_plane.is_cut);
+    EXPECT_NEAR(has_a_plane.at.x, 0.01, kRounding);
+}
+
 TEST(Truncation, HoldsBeforeAnyPlanes) {
     Random random(5);
     for (int trial = 0; trial < 3000; ++trial) {

@@ -142,7 +142,7 @@ TEST(CommonMotion, WhatIsUnforeseenRunsAgain) {
         float4& x = (*run.model->positions)[static_cast<std::size_t>(
             run.model->strips.rank[static_cast<std::size_t>(v)])];
         x.x = 3.0f * x.x;
-        x.y = 0.001f * static_cast<float>(v % 7);
+        x.y = 0.004f * static_cast<float>(v % 7);
     }
     run.changed(*run.model->positions);
     throw_free(run, -5.0f);
