@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/weft/cli_support.h"
-#include "apps/weft/commands.h"
-#include "apps/weft/interrupt.h"
+#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/commands/commands.h"
+#include "apps/weft/run/interrupt.h"
 #include "runtime/error.h"
 
 namespace weft {

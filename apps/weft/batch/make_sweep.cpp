@@ -7,7 +7,7 @@
 
 #include "apps/weft/batch/listing.h"
 #include "apps/weft/batch/run_folder.h"
-#include "apps/weft/cli_support.h"
+#include "apps/weft/command_line/cli_support.h"
 #include "apps/weft/studies/error_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"

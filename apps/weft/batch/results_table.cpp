@@ -8,7 +8,7 @@
 #include <set>
 
 #include "apps/weft/batch/drive.h"
-#include "apps/weft/csv_text.h"
+#include "apps/weft/output/csv_text.h"
 
 namespace weft::batch {
 

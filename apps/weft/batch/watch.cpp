@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "apps/weft/duration_text.h"
+#include "apps/weft/output/duration_text.h"
 
 namespace weft::batch {
 

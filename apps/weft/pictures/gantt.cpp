@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/weft/trace_support.h"
+#include "apps/weft/trace/recorded_frames.h"
 #include "runtime/error.h"
 #include "runtime/trace/recorded_graph.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/weft/output_file.h"
+#include "apps/weft/output/output_file.h"
 #include "apps/weft/pictures/canvas.h"
 
 namespace weft {

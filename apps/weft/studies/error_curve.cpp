@@ -8,9 +8,9 @@
 #include <span>
 #include <sstream>
 
-#include "apps/weft/child_process.h"
-#include "apps/weft/comparison.h"
+#include "apps/weft/process/child_process.h"
 #include "apps/weft/studies/repeated_time.h"
+#include "apps/weft/timing/comparison.h"
 #include "runtime/error.h"
 #include "simulation/checks/step_error.h"
 #include "simulation/scene/solver_limits.h"

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "apps/weft/bytes.h"
-#include "apps/weft/child_process.h"
-#include "apps/weft/progress.h"
+#include "apps/weft/output/progress.h"
+#include "apps/weft/process/bytes.h"
+#include "apps/weft/process/child_process.h"
 #include "runtime/error.h"
 
 namespace weft {

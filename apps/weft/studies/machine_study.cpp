@@ -7,9 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/progress.h"
-#include "apps/weft/recorded_scene.h"
-#include "apps/weft/trace_support.h"
+#include "apps/weft/output/progress.h"
+#include "apps/weft/trace/recorded_frames.h"
+#include "apps/weft/trace/recorded_scene.h"
 #include "runtime/error.h"
 #include "runtime/trace/recorded_graph.h"
 #include "simulation/async_loss.h"

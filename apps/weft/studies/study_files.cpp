@@ -1,6 +1,6 @@
 #include "apps/weft/studies/study_files.h"
 
-#include "apps/weft/output_file.h"
+#include "apps/weft/output/output_file.h"
 #include "apps/weft/pictures/error_picture.h"
 #include "apps/weft/pictures/stability_picture.h"
 #include "apps/weft/pictures/trajectory_picture.h"

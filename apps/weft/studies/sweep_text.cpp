@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "apps/weft/batch/make_sweep.h"
-#include "apps/weft/output_file.h"
+#include "apps/weft/output/output_file.h"
 #include "runtime/io/json_text.h"
 
 namespace weft {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/weft/batch/toml_values.h"
-#include "apps/weft/run_options.h"
+#include "apps/weft/run/run_options.h"
 
 /// What the sweep files of studies are written with: a sweep whose runs are parts of one study.
 namespace weft {

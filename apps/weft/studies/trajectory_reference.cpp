@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "apps/weft/bytes.h"
-#include "apps/weft/child_process.h"
-#include "apps/weft/progress.h"
+#include "apps/weft/output/progress.h"
+#include "apps/weft/process/bytes.h"
+#include "apps/weft/process/child_process.h"
 #include "runtime/error.h"
 #include "simulation/reference/fine_run.h"
 

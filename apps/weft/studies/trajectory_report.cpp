@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/weft/csv_text.h"
+#include "apps/weft/output/csv_text.h"
 
 namespace weft {
 

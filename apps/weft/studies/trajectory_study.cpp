@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/child_process.h"
-#include "apps/weft/progress.h"
+#include "apps/weft/output/progress.h"
+#include "apps/weft/process/child_process.h"
 #include "apps/weft/studies/trajectory_reference.h"
 #include "apps/weft/studies/whole_run.h"
 #include "runtime/error.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/weft/progress.h"
+#include "apps/weft/output/progress.h"
 
 namespace weft {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "apps/weft/run_options.h"
+#include "apps/weft/run/run_options.h"
 
 namespace weft {
 

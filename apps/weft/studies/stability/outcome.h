@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/weft/run_options.h"
+#include "apps/weft/run/run_options.h"
 #include "apps/weft/studies/stability/cases.h"
 
 namespace weft::stability {

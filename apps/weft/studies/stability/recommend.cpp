@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/csv_text.h"
-#include "apps/weft/progress.h"
+#include "apps/weft/output/csv_text.h"
+#include "apps/weft/output/progress.h"
 #include "runtime/error.h"
 
 namespace weft::stability {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/weft/run_options.h"
+#include "apps/weft/run/run_options.h"
 
 namespace weft::stability {
 

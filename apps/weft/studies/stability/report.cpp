@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/csv_text.h"
+#include "apps/weft/output/csv_text.h"
 
 namespace weft::stability {
 

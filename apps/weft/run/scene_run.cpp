@@ -1,0 +1,402 @@
+#include "apps/weft/run/scene_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "apps/weft/output/progress.h"
+#include "apps/weft/run/run_record.h"
+#include "runtime/clock.h"
+#include "runtime/device_list.h"
+#include "runtime/error.h"
+#include "runtime/io/cache_folder.h"
+#include "runtime/unused_memory.h"
+#include "simulation/bodies/mesh_files.h"
+#include "simulation/output/any_checkpoint.h"
+#include "simulation/run_description.h"
+#include "simulation/scene/auto_method.h"
+#include "simulation/solver/async_iterates.h"
+#include "simulation/solver_choice.h"
+
+namespace weft {
+
+namespace {
+
+/// The kernels' binaries are kept for the next run.
+constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
+
+std::filesystem::path folder_for(const RunOptions& options, const Scene& scene) {
+    return options.out ? std::filesystem::path(*options.out)
+                       : std::filesystem::path("out") / scene.name;
+}
+
+bool touches_opencl(const std::string& devices) {
+    return devices.find("opencl") != std::string::npos ||
+           devices.find("hybrid") != std::string::npos || devices.find("gpu") != std::string::npos;
+}
+
+std::vector<GeometryBody> geometry_bodies(const Model& model) {
+    std::vector<GeometryBody> bodies;
+    for (const BodyRange& body : model.bodies) {
+        bodies.push_back({body.name, static_cast<std::uint32_t>(body.triangle_count)});
+    }
+    return bodies;
+}
+
+std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
+    std::vector<GeometryWriter::Triangle> triangles;
+    triangles.reserve(model.triangles.size());
+    const auto index = [](int vertex) { return static_cast<std::uint32_t>(vertex); };
+    for (const auto& t : model.triangles)
+        triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
+    return triangles;
+}
+
+/// What the results depend on, of what the user wrote. The number of frames may differ.
+std::string origin_of(const RunOptions& options, const Scene& scene) {
+    std::string text = std::string(WEFT_VERSION) + '\n' + options.math + '\n' + scene.text;
+    for (const std::string& value : scene.overrides) {
+        if (!value.starts_with("scene.frames=")) text += '\n' + value;
+    }
+    return text;
+}
+
+std::string named(const TextPairs& pairs, const std::string& name) {
+    const auto found = std::ranges::find(pairs, name, &TextPairs::value_type::first);
+    if (found == pairs.end()) throw UserError("the checkpoint does not say: " + name);
+    return found->second;
+}
+
+SolverChoice recorded_choice(const TextPairs& settings) {
+    const auto number = [&](const char* name) {
+        try {
+            return std::stoi(named(settings, name));
+        } catch (const std::logic_error&) {
+            throw UserError(std::string("the checkpoint is damaged: ") + name +
+                            " is no number; --force starts the run anew");
+        }
+    };
+    return {method_named(named(settings, "method")), number("iterations"), number("substeps"),
+            named(settings, "solver_choice")};
+}
+
+}  // namespace
+
+SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
+    : options_(options),
+      keeps_checkpoint_(keeps_checkpoint),
+      scene_(read_scene(options.scene, options.overrides())),
+      origin_(origin_of(options, scene_)),
+      folder_(folder_for(options, scene_), options.force) {
+    if (!options.no_geometry) check_states();
+    settle_solver();
+    set_up();
+    complete_origin();
+    RunDescription description = describe();
+    if (options_.resume) find_earlier(description);
+    description.warnings = all_warnings();
+    claim_folder();
+    summary_.emplace(description);
+    if (!options_.no_trace) trace_.emplace(folder_.trace(), description);
+    if (!options_.no_geometry) open_geometry();
+    if (earlier_) take_over();
+    last_checkpoint_ = now();
+}
+
+/// Their file is laid out in advance, with some 500 bytes for each of them.
+void SceneRun::check_states() const {
+    constexpr std::size_t kMost = 1'000'000;
+    const std::size_t states = geometry_steps(scene_.frames);
+    if (states <= kMost) return;
+    throw UserError(
+        fmt::format("{}: geometry would have {} states, and the most are {}; a larger "
+                    "[output] every leaves some out, --no-geometry all of them",
+                    options_.scene, states, kMost));
+}
+
+/// Measured once: a run that goes on has the solver that it began with.
+void SceneRun::settle_solver() {
+    if (!auto_method(scene_)) return;
+    std::optional<Checkpoint> earlier;  // whether it is of this run, is seen when it goes on
+    if (options_.resume && std::filesystem::exists(folder_.checkpoint()))
+        earlier = read_any_checkpoint(folder_.checkpoint());
+    if (!earlier && !options_.quiet) {
+        std::cerr << fmt::format("weft: {}: measuring which solver serves best\n", scene_.name)
+                  << std::flush;
+    }
+    const SolverChoice choice = earlier
+                                    ? recorded_choice(settings_of(*earlier, folder_.checkpoint()))
+                                    : choose_solver(scene_, options_.simulation().plan);
+    scene_ = with_choice(std::move(scene_), choice);
+    solver_choice_ = choice.why;
+}
+
+RunDescription SceneRun::describe() const {
+    RunDescription description = describe_run(*simulation_, options_);
+    if (!solver_choice_.empty()) description.settings.emplace_back("solver_choice", solver_choice_);
+    return description;
+}
+
+/// With the meshes, once it is known that they can be read, and what a checkpoint's positions count
+/// from.
+void SceneRun::complete_origin() {
+    for (const BodyMesh& mesh : mesh_files(scene_)) origin_ += '\n' + file_hash(mesh.path);
+    const std::string counted_from = origin_setting(simulation_->model());
+    if (!counted_from.empty()) origin_ += '\n' + counted_from;
+    origin_ = cache_key(origin_ + async_origin());
+}
+
+/// Asynchronous results depend on the map, which depends on the cuts.
+std::string SceneRun::async_origin() const {
+    const auto* async = dynamic_cast<const AsyncIterates*>(&simulation_->solver());
+    if (async == nullptr) return "";
+    std::string text = '\n' + to_text(async->settings());
+    text += fmt::format("\nstrips {}\nunits", fmt::join(options_.strips, ","));
+    for (const auto& device : simulation_->devices()) {
+        text += fmt::format(" {}", device->info().units);
+    }
+    return text;
+}
+
+/// Where nothing was left to go on from, the run begins at the beginning.
+void SceneRun::find_earlier(const RunDescription& description) {
+    const auto checkpoint = read_checkpoint(folder_.checkpoint(), origin_);
+    if (!checkpoint) return;
+    if (checkpoint->frame > scene_.frames) {
+        throw UserError(fmt::format("--resume: {} frames are done already, and {} are asked for",
+                                    checkpoint->frame, scene_.frames));
+    }
+    const Outputs outputs = {.trace = !options_.no_trace,
+                             .geometry = !options_.no_geometry,
+                             .state_interval = scene_.output.every * scene_.dt,
+                             .states = geometry_steps(checkpoint->frame)};
+    earlier_.emplace(folder_, *checkpoint, outputs, description);
+    simulation_->resume(*checkpoint);
+    warn_of_missing_outputs();
+}
+
+/// They may be gone, or the run has begun without them.
+void SceneRun::warn_of_missing_outputs() {
+    if (earlier_->frames() == 0) return;
+    const auto warn = [&](const std::filesystem::path& file) {
+        warnings_.push_back(
+            fmt::format("{}: nothing of it is there from before frame {}, so it begins there",
+                        file.string(), earlier_->frames()));
+        if (!options_.quiet) print_warnings({warnings_.back()});
+    };
+    if (!options_.no_trace && !earlier_->has_trace()) warn(folder_.trace());
+    if (!options_.no_geometry && !earlier_->has_geometry()) warn(folder_.geometry());
+}
+
+void SceneRun::claim_folder() {
+    if (!earlier_) {
+        folder_.claim();
+        if (folder_.replaces_unfinished() && !options_.resume && !options_.quiet) {
+            std::cerr << fmt::format("weft: {}: replacing a run that did not finish\n",
+                                     folder_.path().string());
+        }
+        return;
+    }
+    std::vector<std::filesystem::path> outputs;
+    if (!options_.no_trace) outputs.push_back(folder_.trace());
+    if (!options_.no_geometry) outputs.push_back(folder_.geometry());
+    folder_.claim_to_go_on(outputs);
+}
+
+void SceneRun::take_over() {
+    earlier_->hand_over(*summary_);
+    clock_offset_ = summary_->end();
+    if (trace_) earlier_->hand_over(*trace_);
+    if (geometry_) earlier_->hand_over(*geometry_);
+    if (!options_.quiet) {
+        std::cerr << fmt::format("weft: {}: going on after {} of {} frames\n", scene_.name,
+                                 earlier_->frames(), scene_.frames);
+    }
+    earlier_.reset();
+    folder_.forget_before();
+}
+
+void SceneRun::set_up() {
+    check_device_list(options_.device);
+    const SimulationOptions settings = options_.simulation();
+    if (!options_.quiet) {
+        std::cerr << fmt::format("weft: {}: setting up on {}{}\n", scene_.name, options_.device,
+                                 touches_opencl(options_.device) ? kFirstTimeNote : "")
+                  << std::flush;
+    }
+    simulation_.emplace(scene_, settings, warnings_);
+    if (!options_.quiet) say_what_runs();
+}
+
+void SceneRun::say_what_runs() const {
+    print_warnings(all_warnings());
+    std::vector<std::string> devices;
+    for (const auto& device : simulation_->devices()) {
+        const DeviceInfo& info = device->info();
+        devices.push_back(fmt::format("{} ({}, {} unit{})", info.name, info.kind, info.units,
+                                      info.units == 1 ? "" : "s"));
+    }
+    const Model& model = simulation_->model();
+    if (!solver_choice_.empty()) {
+        std::cerr << fmt::format("weft: {}: solver {}: {}\n", scene_.name,
+                                 name_of(scene_.solver.method), solver_choice_);
+    }
+    std::cerr << fmt::format(
+        "weft: {}: {} vertices, {} substeps x {} iterations, {} frames on {}\n", scene_.name,
+        model.vertex_count(), model.scene.substeps, scene_.solver.iterations, scene_.frames,
+        fmt::join(devices, " + "));
+    if (options_.async && !simulation_->async_choice().empty()) {
+        std::cerr << fmt::format("weft: {}\n", simulation_->async_choice());
+    }
+}
+
+Warnings SceneRun::all_warnings() const {
+    Warnings warnings = warnings_;
+    if (options_.math != "strict") return warnings;
+    for (const std::string& name : loose_devices(*simulation_)) {
+        warnings.push_back(fmt::format(
+            "{} does not round divisions and square roots correctly: its results may differ from "
+            "those of other devices in the last bits",
+            name));
+    }
+    return warnings;
+}
+
+void SceneRun::open_geometry() {
+    const Model& model = simulation_->model();
+    const auto triangles = geometry_triangles(model);
+    geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
+                      geometry_bodies(model), geometry_steps(scene_.frames),
+                      scene_.output.compression);
+    give_back_freed();  // copies of all triangles
+    if (!earlier_ || !earlier_->has_geometry()) append_geometry();
+}
+
+/// Of the states after 0, 1, ... `frames` frames, those that are written.
+std::size_t SceneRun::geometry_steps(int frames) const {
+    return static_cast<std::size_t>(frames / scene_.output.every) + 1;
+}
+
+void SceneRun::append_geometry() {
+    if (simulation_->frame() % scene_.output.every != 0) return;
+    geometry_->append(simulation_->time(),
+                      [model = simulation_->shared_model(), state = simulation_->snapshot()] {
+                          return model->in_scene(state->ordered_positions(*model));
+                      });
+}
+
+void SceneRun::advance_all(const InterruptNotice& notice) {
+    Progress progress("frame", scene_.frames, options_.quiet);
+    last_end_ = simulation_->clock();
+    while (frames_done() < scene_.frames && notice.signal() == 0) {
+        keep_checkpoint();
+        FrameRecord record = simulation_->advance({.tasks = trace_.has_value()});
+        say_losses(record);
+        say_troubles(record);
+        // First of all, so that a killed run's trace is no more than one frame behind its geometry.
+        if (trace_) trace_->settle();
+        if (geometry_) append_geometry();
+        if (std::isfinite(record.relative_error)) {
+            convergence_ = fmt::format("error of a step {:.1g}", record.relative_error);
+        }
+        progress.show(frames_done(), convergence_);
+        close(record);
+        summary_->add(record);
+        if (trace_) append_trace(std::move(record));
+    }
+}
+
+/// The hash is found out while the next frame runs.
+void SceneRun::append_trace(FrameRecord record) {
+    trace_->append(std::move(record),
+                   [model = simulation_->shared_model(), state = simulation_->snapshot()](
+                       FrameRecord& frame) { frame.state_hash = state->hash(*model); });
+}
+
+/// All time since the record before was closed belongs to this one.
+void SceneRun::close(FrameRecord& record) {
+    const double end = simulation_->clock();
+    record.output_time = record.start - last_end_ + end - record.end;
+    record.start = last_end_;
+    record.end = last_end_ = end;
+    shift_times(record, clock_offset_);
+}
+
+/// Appending waits for the frame before to be on disk. So a checkpoint is written one frame after
+/// it was taken: then trace and geometry hold all of its frames.
+void SceneRun::keep_checkpoint() {
+    if (pending_) {
+        write_checkpoint(folder_.checkpoint(), origin_, *pending_);
+        pending_.reset();
+    }
+    if (now() - last_checkpoint_ < options_.checkpoint) return;
+    pending_ = checkpoint();
+    last_checkpoint_ = now();
+}
+
+Checkpoint SceneRun::checkpoint() const {
+    Checkpoint checkpoint = simulation_->checkpoint();
+    checkpoint.report = summary_->save();
+    return checkpoint;
+}
+
+/// Even where talk is not wanted: the rest of the run is slower than was asked for.
+void SceneRun::say_losses(FrameRecord& record) {
+    const auto& losses = simulation_->losses();
+    for (; losses_said_ < losses.size(); ++losses_said_) {
+        const std::string text = text_of(losses[losses_said_]);
+        std::cerr << fmt::format("weft: warning: {}\n", text);
+        record.warnings.push_back(text);
+    }
+}
+
+/// Warnings of the results, on stderr, in the trace and in the summary.
+void SceneRun::say_troubles(FrameRecord& record) {
+    const auto& troubles = simulation_->troubles();
+    for (; troubles_said_ < troubles.size(); ++troubles_said_) {
+        const Trouble& trouble = troubles[troubles_said_];
+        const std::string text = fmt::format("frame {}: {}", trouble.frame, trouble.what);
+        std::cerr << fmt::format("weft: warning: {}\n", text);
+        summary_->warn(text);
+        record.warnings.push_back(trouble.what);
+    }
+}
+
+std::string SceneRun::text_of(const LostDevice& lost) const {
+    const auto& device = simulation_->devices()[static_cast<std::size_t>(lost.device)];
+    return fmt::format("device {} ({}) was lost in frame {}, the others go on without it: {}",
+                       lost.device, device->info().name, lost.frame, lost.why);
+}
+
+RunSummary SceneRun::finish() {
+    simulation_->save_costs();
+    RunSummary summary = summary_->summary();
+    for (const LostDevice& lost : simulation_->losses()) summary.losses.push_back(text_of(lost));
+    const Warnings more = all_warnings();
+    summary.warnings.insert(summary.warnings.begin(), more.begin(), more.end());
+    summary.finished = frames_done() == scene_.frames;
+    summary.state_hash = simulation_->hash();
+    if (trace_) {
+        if (summary.finished) trace_->finish(summary.state_hash);
+        trace_.reset();
+        summary.files.emplace_back("trace", folder_.trace().string());
+    }
+    if (geometry_) {
+        geometry_->finish();
+        summary.files.emplace_back("geometry", folder_.geometry().string());
+        summary.files.emplace_back("xdmf", GeometryWriter::xdmf_path(folder_.geometry()).string());
+    }
+    summary.files.emplace_back("summary", folder_.summary().string());
+    const bool is_kept = !summary.finished || keeps_checkpoint_;
+    if (is_kept) write_checkpoint(folder_.checkpoint(), origin_, checkpoint());
+    if (summary.finished && is_kept)
+        summary.files.emplace_back("checkpoint", folder_.checkpoint().string());
+    write_summary(folder_.summary(), summary);
+    if (!is_kept) std::filesystem::remove(folder_.checkpoint());
+    return summary;
+}
+
+}  // namespace weft
