@@ -7,7 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/parse_error.h"
+#include "apps/weft/command_line/typed_line.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/run/interrupt.h"
 #include "runtime/error.h"

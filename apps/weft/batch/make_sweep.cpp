@@ -7,7 +7,9 @@
 
 #include "apps/weft/batch/listing.h"
 #include "apps/weft/batch/run_folder.h"
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
+#include "apps/weft/command_line/parse_error.h"
+#include "apps/weft/commands/study_options.h"
 #include "apps/weft/studies/error_study.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"

@@ -13,7 +13,7 @@
 #include "apps/weft/batch/listing.h"
 #include "apps/weft/batch/make_sweep.h"
 #include "apps/weft/batch/watch.h"
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/program.h"
 #include "runtime/error.h"

@@ -7,7 +7,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/process/child_process.h"
@@ -103,9 +104,7 @@ void run_comparison(CompareOptions options) {
     const auto lists = options.devices.empty() ? default_lists() : options.devices;
     const Comparison comparison = compare(options, lists, scene);
     const nlohmann::ordered_json json = to_json(comparison);
-    write_json(options.run.out ? std::filesystem::path(*options.run.out)
-                               : std::filesystem::path("out") / scene.name,
-               json);
+    write_json(options.run.folder_for(scene.name), json);
     if (options.run.json)
         std::cout << json_text(json) << std::endl;
     else

@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/timing/device_costs.h"
 #include "runtime/device_list.h"

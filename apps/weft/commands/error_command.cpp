@@ -5,8 +5,10 @@
 #include <memory>
 
 #include "apps/weft/batch/make_sweep.h"
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
+#include "apps/weft/commands/study_options.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/studies/error_report.h"
 #include "apps/weft/studies/study_files.h"
@@ -34,17 +36,6 @@ void print_study(const ErrorOptions& options, const Study& study, const std::str
 
 Scene scene_of(const ErrorOptions& options) {
     return read_scene(options.run.scene, options.run.overrides());
-}
-
-std::filesystem::path make_folder(const ErrorOptions& options) {
-    const Scene scene = scene_of(options);
-    const std::filesystem::path folder = options.run.out
-                                             ? std::filesystem::path(*options.run.out)
-                                             : std::filesystem::path("out") / scene.name;
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw UserError("--out: cannot make " + folder.string() + ": " + error.message());
-    return folder;
 }
 
 /// study.json is for whoever joins the parts of a study.
@@ -83,7 +74,7 @@ void run_error(ErrorOptions options) {
     if (options.plans.empty()) options.plans = {"auto"};
     if (options.solvers.empty()) options.solvers = method_names();
     if (options.as_sweep) return make_sweep_of(options);
-    const std::filesystem::path folder = make_folder(options);
+    const auto folder = make_output_folder(options.run.folder_for(scene_of(options).name));
     if (options.trajectory)
         run_study(options, study_trajectories(options), folder);
     else

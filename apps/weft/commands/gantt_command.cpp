@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/pictures/gantt.h"

@@ -6,8 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
 #include "apps/weft/commands/commands.h"
+#include "apps/weft/output/warnings.h"
 #include "runtime/io/json_text.h"
 #include "simulation/inspect.h"
 #include "simulation/scene/auto_method.h"

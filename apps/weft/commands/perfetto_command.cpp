@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/trace/perfetto.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/pictures/machine_picture.h"
@@ -235,10 +235,7 @@ void refuse_trace_options(const PlanOptions& options) {
 /// Beside the trace, unless it is said where.
 std::filesystem::path map_folder(const PlanOptions& options) {
     if (!options.out) return std::filesystem::path(options.graph).parent_path();
-    std::error_code error;
-    std::filesystem::create_directories(*options.out, error);
-    if (error) throw UserError("--out: cannot make " + *options.out + ": " + error.message());
-    return *options.out;
+    return make_output_folder(*options.out);
 }
 
 void map_machines(const PlanOptions& options) {

@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/progress.h"
 #include "apps/weft/trace/recorded_scene.h"

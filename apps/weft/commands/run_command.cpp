@@ -4,8 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
 #include "apps/weft/commands/commands.h"
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/run/scene_run.h"
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/weft/batch/make_sweep.h"
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
+#include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
+#include "apps/weft/commands/study_options.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/output/progress.h"
 #include "apps/weft/studies/stability/parts.h"
@@ -26,13 +28,6 @@ namespace {
 
 using stability::StudyOptions;
 
-std::filesystem::path make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw UserError("--out: cannot make " + folder.string() + ": " + error.message());
-    return folder;
-}
-
 std::vector<stability::Row> run_suite(const StudyOptions& options) {
     const auto cases = stability::chosen_cases(options);
     std::vector<stability::Row> rows;
@@ -50,12 +45,12 @@ std::vector<stability::Row> run_suite(const StudyOptions& options) {
 /// study.json is for whoever joins the parts of a study.
 template <class Study>
 std::string write_files(const std::filesystem::path& folder, const Study& study) {
-    write_output(make_folder(folder) / "study.json", json_text(to_part(study), -1) + '\n');
+    write_output(make_output_folder(folder) / "study.json", json_text(to_part(study), -1) + '\n');
     return write_study(folder, study);
 }
 
 void show_suite(const StudyOptions& options) {
-    const auto folder = make_folder(options.run.out.value_or("out/stability"));
+    const auto folder = make_output_folder(options.run.out.value_or("out/stability"));
     const auto rows = run_suite(options);
     const std::string files = write_files(folder, rows);
     if (options.run.json)

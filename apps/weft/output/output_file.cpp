@@ -18,4 +18,11 @@ void write_output(const std::filesystem::path& path, std::string_view content) {
     file.finish();
 }
 
+std::filesystem::path make_output_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw UserError("--out: cannot make " + folder.string() + ": " + error.message());
+    return folder;
+}
+
 }  // namespace weft

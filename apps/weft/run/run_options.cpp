@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <iostream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "runtime/error.h"
 #include "runtime/io/cache_folder.h"
@@ -57,11 +54,6 @@ std::filesystem::path usual_cost_file() {
     return folder.empty() ? folder : folder / "costs.json";
 }
 
-std::string& noted_command_line() {
-    static std::string line;
-    return line;
-}
-
 }  // namespace
 
 std::vector<Override> RunOptions::overrides() const {
@@ -101,14 +93,9 @@ SimulationOptions RunOptions::simulation() const {
     return options;
 }
 
-void note_command_line(int argc, char** argv) {
-    noted_command_line() = fmt::format("{}", fmt::join(argv, argv + argc, " "));
-}
-
-const std::string& command_line() { return noted_command_line(); }
-
-void print_warnings(const Warnings& warnings) {
-    for (const std::string& warning : warnings) std::cerr << "weft: warning: " << warning << '\n';
+std::filesystem::path RunOptions::folder_for(const std::string& scene_name) const {
+    if (out) return *out;
+    return std::filesystem::path("out") / scene_name;
 }
 
 }  // namespace weft

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,13 +41,8 @@ struct RunOptions {
     std::vector<Override> overrides() const;
     /// Throws UserError for what this version does not have.
     SimulationOptions simulation() const;
+    /// --out; left out, out/ and the scene's name.
+    std::filesystem::path folder_for(const std::string& scene_name) const;
 };
-
-/// What the user typed, words joined by blanks; for traces. main() notes it.
-void note_command_line(int argc, char** argv);
-const std::string& command_line();
-
-/// "weft: warning: ..." on stderr, each.
-void print_warnings(const Warnings& warnings);
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include "apps/weft/command_line/typed_line.h"
 #include "runtime/trace/host_info.h"
 #include "simulation/versions.h"
 

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "apps/weft/output/progress.h"
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/run/run_record.h"
 #include "runtime/clock.h"
 #include "runtime/device_list.h"
@@ -27,11 +28,6 @@ namespace {
 
 /// The kernels' binaries are kept for the next run.
 constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
-
-std::filesystem::path folder_for(const RunOptions& options, const Scene& scene) {
-    return options.out ? std::filesystem::path(*options.out)
-                       : std::filesystem::path("out") / scene.name;
-}
 
 bool touches_opencl(const std::string& devices) {
     return devices.find("opencl") != std::string::npos ||
@@ -90,7 +86,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
       keeps_checkpoint_(keeps_checkpoint),
       scene_(read_scene(options.scene, options.overrides())),
       origin_(origin_of(options, scene_)),
-      folder_(folder_for(options, scene_), options.force) {
+      folder_(options.folder_for(scene_.name), options.force) {
     if (!options.no_geometry) check_states();
     settle_solver();
     set_up();

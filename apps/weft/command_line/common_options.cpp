@@ -1,77 +1,10 @@
-#include "apps/weft/command_line/cli_support.h"
+#include "apps/weft/command_line/common_options.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "simulation/scene/near_miss.h"
+#include "apps/weft/command_line/validators.h"
 
 namespace weft {
-namespace {
-
-/// The subcommand that the user has chosen, or weft itself.
-const CLI::App& chosen_command(const CLI::App& app) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    return chosen.empty() ? app : chosen_command(*chosen.front());
-}
-
-std::vector<std::string> option_names(const CLI::App& command) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-    return names;
-}
-
-std::vector<std::string> command_names(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-        names.push_back(command->get_name());
-    }
-    return names;
-}
-
-std::string command_path(const CLI::App& app, const CLI::App& command) {
-    if (&app == &command) return app.get_name();
-    return command_path(app, *command.get_parent()) + " " + command.get_name();
-}
-
-/// For a word that nothing expects: what it may have been meant to be.
-std::string describe_stray_word(const CLI::App& app, const CLI::App& command,
-                                const std::string& word) {
-    const std::string help = fmt::format("see '{} --help'", command_path(app, command));
-    if (word.starts_with("-")) {
-        const std::string name = word.substr(0, word.find('='));
-        const std::string near = near_miss(name, option_names(command));
-        return fmt::format("unknown option '{}'; {}", name, near.empty() ? help : near);
-    }
-    if (&app == &command) {
-        return fmt::format("unknown command '{}'; {}", word,
-                           near_miss_or_list(word, command_names(app)));
-    }
-    return fmt::format("unexpected argument '{}'; {}", word, help);
-}
-
-std::string one_line(std::string text) {
-    while (!text.empty() && text.back() == '\n') text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
-CLI::Validator number_where(bool (*holds)(double), const std::string& expected) {
-    const auto check = [=](const std::string& text) -> std::string {
-        double value = 0.0;
-        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-        if (is_number && holds(value)) return "";
-        return fmt::format("'{}': expected {}", text, expected);
-    };
-    return CLI::Validator(check, "");
-}
-
-}  // namespace
 
 void add_scene_options(CLI::App& command, RunOptions& options) {
     command.add_option("SCENE", options.scene, "scene file (.toml)")->required()->type_name("FILE");
@@ -223,40 +156,6 @@ void add_run_options(CLI::App& command, RunOptions& options) {
             },
             "print the JSON Schema of scene files, and stop")
         ->trigger_on_parse();
-}
-
-CLI::Validator one_of(std::vector<std::string> choices) {
-    const auto check = [choices = std::move(choices)](const std::string& value) -> std::string {
-        if (std::find(choices.begin(), choices.end(), value) != choices.end()) return "";
-        return fmt::format("'{}' is unknown; {}", value, near_miss_or_list(value, choices));
-    };
-    return CLI::Validator(check, "");
-}
-
-CLI::Validator above_zero() {
-    return number_where([](double value) { return value > 0.0; }, "a number above 0");
-}
-
-CLI::Validator zero_or_more() {
-    return number_where([](double value) { return value >= 0.0; }, "a number, 0 or more");
-}
-
-CLI::Validator path_name() {
-    const auto check = [](const std::string& value) -> std::string {
-        if (!value.empty() && !value.starts_with("--")) return "";
-        return fmt::format("'{}': expected the name of a file or folder", value);
-    };
-    return CLI::Validator(check, "");
-}
-
-std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::App& command = chosen_command(app);
-    const std::vector<std::string> stray = command.remaining();
-    if (!stray.empty()) return describe_stray_word(app, command, stray.front());
-    if (&app == &command) {
-        return fmt::format("a command is missing; known: {}", fmt::join(command_names(app), ", "));
-    }
-    return fmt::format("{}; see '{} --help'", one_line(error.what()), command_path(app, command));
 }
 
 }  // namespace weft

@@ -1,0 +1,49 @@
+#include "apps/weft/command_line/validators.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "simulation/scene/near_miss.h"
+
+namespace weft {
+namespace {
+
+CLI::Validator number_where(bool (*holds)(double), const std::string& expected) {
+    const auto check = [=](const std::string& text) -> std::string {
+        double value = 0.0;
+        const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+        if (is_number && holds(value)) return "";
+        return fmt::format("'{}': expected {}", text, expected);
+    };
+    return CLI::Validator(check, "");
+}
+
+}  // namespace
+
+CLI::Validator one_of(std::vector<std::string> choices) {
+    const auto check = [choices = std::move(choices)](const std::string& value) -> std::string {
+        if (std::find(choices.begin(), choices.end(), value) != choices.end()) return "";
+        return fmt::format("'{}' is unknown; {}", value, near_miss_or_list(value, choices));
+    };
+    return CLI::Validator(check, "");
+}
+
+CLI::Validator above_zero() {
+    return number_where([](double value) { return value > 0.0; }, "a number above 0");
+}
+
+CLI::Validator zero_or_more() {
+    return number_where([](double value) { return value >= 0.0; }, "a number, 0 or more");
+}
+
+CLI::Validator path_name() {
+    const auto check = [](const std::string& value) -> std::string {
+        if (!value.empty() && !value.starts_with("--")) return "";
+        return fmt::format("'{}': expected the name of a file or folder", value);
+    };
+    return CLI::Validator(check, "");
+}
+
+}  // namespace weft
