@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "runtime/io/process.h"
 #include "runtime/io/system_call.h"
 
 namespace weft {
@@ -26,8 +27,7 @@ std::atomic<bool> is_probed = false;
 // ---- in the process that may end ----
 
 void say(int to, const std::string& line) {
-    const ssize_t written = ::write(to, line.data(), line.size());
-    if (written != static_cast<ssize_t>(line.size())) ::_exit(1);
+    if (!write_all(to, line)) ::_exit(1);
 }
 
 /// The number counts where there is no name.
@@ -70,17 +70,25 @@ void examine_all(int to, const std::vector<OpenClPlatform>& unusable) {
     say(to, "end\n");
 }
 
+int exit_code_of_examination(int to, const std::vector<OpenClPlatform>& unusable) {
+    try {
+        examine_all(to, unusable);
+        return 0;
+    } catch (const std::exception&) {
+        return 1;
+    }
+}
+
 // ---- in this one ----
 
 /// All that the child says until it ends; a child that is silent for too long is ended.
 std::string listen(int from, pid_t child) {
     std::string text;
-    char part[512];
     pollfd ready{from, POLLIN, 0};
     while (until_uninterrupted([&] { return ::poll(&ready, 1, kPatience); }) > 0) {
-        const auto count = until_uninterrupted([&] { return ::read(from, part, sizeof part); });
-        if (count <= 0) return text;
-        text.append(part, static_cast<std::size_t>(count));
+        const std::string part = read_some(from);
+        if (part.empty()) return text;
+        text += part;
     }
     ::kill(child, SIGKILL);
     return text;
@@ -88,23 +96,15 @@ std::string listen(int from, pid_t child) {
 
 /// What one child said; nothing where none could be started.
 std::optional<std::string> ask_child(const std::vector<OpenClPlatform>& unusable, int& status) {
-    int ends[2];
-    if (::pipe(ends) != 0) return std::nullopt;
-    std::fflush(nullptr);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        try {
-            examine_all(ends[1], unusable);
-        } catch (const std::exception&) {
-            ::_exit(1);
-        }
-        ::_exit(0);
-    }
-    ::close(ends[1]);
-    std::optional<std::string> text;
-    if (child > 0) text = listen(ends[0], child);
-    ::close(ends[0]);
-    if (child > 0) until_uninterrupted([&] { return ::waitpid(child, &status, 0); });
+    Pipe pipe;
+    if (!pipe.is_open()) return std::nullopt;
+    const pid_t child =
+        start_process([&] { return exit_code_of_examination(pipe.writer(), unusable); });
+    if (child < 0) return std::nullopt;
+    pipe.close_writer();
+    std::string text = listen(pipe.reader(), child);
+    pipe.close_reader();
+    status = wait_for_process(child);
     return text;
 }
 

@@ -16,6 +16,7 @@
 #endif
 
 #include "runtime/error.h"
+#include "runtime/io/process.h"
 
 namespace weft::batch {
 
@@ -29,7 +30,7 @@ void end_with_parent(pid_t parent) {
     if (::getppid() != parent) ::_exit(EXIT_FAILURE);
 }
 
-[[noreturn]] void serve(int log, pid_t parent, const ChildRun::Work& work) {
+int serve(int log, pid_t parent, const ChildRun::Work& work) {
     StopNotice::forget();
     StopNotice::hold_back(false);
     end_with_parent(parent);
@@ -39,7 +40,7 @@ void end_with_parent(pid_t parent) {
     std::cout.flush();
     std::cerr.flush();
     std::fflush(nullptr);
-    ::_exit(code);
+    return code;
 }
 
 ChildEnd end_of(int status, bool asked) {
@@ -52,11 +53,9 @@ ChildEnd end_of(int status, bool asked) {
 ChildRun::ChildRun(const std::filesystem::path& log, const Work& work) {
     const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0) throw RunError(log.string() + ": cannot be written: " + std::strerror(errno));
-    std::fflush(nullptr);
     StopNotice::hold_back(true);
     const pid_t parent = ::getpid();
-    process_ = ::fork();
-    if (process_ == 0) serve(file, parent, work);
+    process_ = start_process([&] { return serve(file, parent, work); });
     StopNotice::hold_back(false);
     ::close(file);
     if (process_ < 0)

@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// What child processes answer with (child_process.h).
+/// Lists as the bytes that child processes answer with (child_process.h).
 template <class T>
 std::string bytes_of(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,13 +1,13 @@
 #include "apps/weft/timing/frame_worker.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <optional>
 #include <sstream>
 
+#include "apps/weft/process/answer.h"
 #include "runtime/error.h"
 #include "runtime/io/system_call.h"
 #include "simulation/diagnostics.h"
@@ -22,28 +22,20 @@ constexpr char kFrame = 'f';
 constexpr char kState = 's';
 constexpr char kEnd = 'e';
 
-// An answer is one line: what happened, then its text.
-constexpr char kDone = '+';
-constexpr char kUserError = 'u';
-constexpr char kRunError = '!';
+/// An answer is one line.
+void write_line(int descriptor, std::string answer) {
+    std::ranges::replace(answer, '\n', ' ');
+    if (!write_all(descriptor, answer + '\n')) ::_exit(1);  // whoever asked is gone
+}
 
-void write_line(int descriptor, char status, std::string text) {
-    for (char& c : text) {
-        if (c == '\n') c = ' ';
-    }
-    const std::string line = status + text + '\n';
-    std::size_t sent = 0;
-    while (sent < line.size()) {
-        const ssize_t count = ::write(descriptor, line.data() + sent, line.size() - sent);
-        if (count <= 0) ::_exit(1);  // whoever asked is gone
-        sent += static_cast<std::size_t>(count);
-    }
+bool read_char(int descriptor, char& c) {
+    return until_uninterrupted([&] { return ::read(descriptor, &c, 1); }) == 1;
 }
 
 std::string read_line(int descriptor) {
     std::string line;
     char c = 0;
-    while (::read(descriptor, &c, 1) == 1 && c != '\n') line += c;
+    while (read_char(descriptor, c) && c != '\n') line += c;
     return line;
 }
 
@@ -68,67 +60,63 @@ std::string end_line(const Simulation& simulation) {
     return fmt::format("{} {}", simulation.hash(), simulation.energies().total());
 }
 
+std::string reply(char command, Simulation& simulation) {
+    if (command == kFrame) return frame_line(simulation);
+    return command == kState ? end_line(simulation) : "";
+}
+
+void set_up(std::optional<Simulation>& simulation, const RunOptions& options) {
+    const Scene scene = read_scene(options.scene, options.overrides());
+    SimulationOptions settings = options.simulation();
+    settings.on_trouble = OnTrouble::kReport;  // times are what is asked for
+    Warnings ignored;
+    simulation.emplace(scene, settings, ignored);
+}
+
 }  // namespace
 
 FrameWorker::FrameWorker(const RunOptions& options) : devices_(options.device) {
-    int commands[2];
-    int answers[2];
-    if (::pipe(commands) != 0 || ::pipe(answers) != 0) throw RunError("cannot make a pipe");
-    std::fflush(nullptr);
-    process_ = ::fork();
+    if (!commands_.is_open() || !answers_.is_open()) throw RunError("cannot make a pipe");
+    process_ = start_process([&] {
+        commands_.close_writer();
+        answers_.close_reader();
+        serve(options);
+        return 0;
+    });
     if (process_ < 0) throw RunError("cannot start a process");
-    if (process_ == 0) {
-        ::close(commands[1]);
-        ::close(answers[0]);
-        serve(options, commands[0], answers[1]);
-    }
-    ::close(commands[0]);
-    ::close(answers[1]);
-    to_worker_ = commands[1];
-    from_worker_ = answers[0];
+    commands_.close_reader();
+    answers_.close_writer();
 }
 
 FrameWorker::~FrameWorker() {
     // Not by closing the pipe alone: workers started later hold copies of its end. One that has
     // ended already does not read, and need not.
-    [[maybe_unused]] const ssize_t sent = ::write(to_worker_, &kEnd, 1);
-    ::close(to_worker_);
-    ::close(from_worker_);
-    until_uninterrupted([&] { return ::waitpid(process_, nullptr, 0); });
+    write_all(commands_.writer(), {&kEnd, 1});
+    commands_.close_writer();
+    answers_.close_reader();
+    wait_for_process(process_);
 }
 
-void FrameWorker::serve(const RunOptions& options, int in, int out) {
-    try {
-        const Scene scene = read_scene(options.scene, options.overrides());
-        Warnings warnings;
-        SimulationOptions settings = options.simulation();
-        settings.on_trouble = OnTrouble::kReport;  // times are what is asked for
-        Simulation simulation(scene, settings, warnings);
-        char command = 0;
-        while (::read(in, &command, 1) == 1 && command != kEnd) {
-            if (command == kFrame)
-                write_line(out, kDone, frame_line(simulation));
-            else
-                write_line(out, kDone, command == kState ? end_line(simulation) : "");
-        }
-    } catch (const UserError& error) {
-        write_line(out, kUserError, error.what());
-    } catch (const std::exception& error) {
-        write_line(out, kRunError, error.what());
+/// A failure is the answer to all that is asked from then on.
+void FrameWorker::serve(const RunOptions& options) {
+    std::optional<Simulation> simulation;
+    std::string answer = answer_of([&] {
+        set_up(simulation, options);
+        return "";
+    });
+    char command = 0;
+    while (read_char(commands_.reader(), command) && command != kEnd) {
+        if (!is_failure(answer)) answer = answer_of([&] { return reply(command, *simulation); });
+        write_line(answers_.writer(), answer);
     }
-    ::_exit(0);
 }
 
 std::string FrameWorker::ask(char command) {
-    // A worker that has failed has said so already, and does not listen any more.
-    const ssize_t sent = ::write(to_worker_, &command, 1);
-    const std::string answer = read_line(from_worker_);
-    if (sent != 1 && answer.empty()) throw RunError(devices_ + ": the worker process has ended");
+    const bool is_sent = write_all(commands_.writer(), {&command, 1});
+    const std::string answer = read_line(answers_.reader());
+    if (!is_sent && answer.empty()) throw RunError(devices_ + ": the worker process has ended");
     if (answer.empty()) throw RunError(devices_ + ": the worker process was killed");
-    const std::string text = answer.substr(1);
-    if (answer[0] == kUserError) throw UserError(text);
-    if (answer[0] == kRunError) throw RunError(devices_ + ": " + text);
-    return text;
+    return taken(answer, devices_);
 }
 
 void FrameWorker::wait_until_ready() { ask(kReady); }

@@ -2,11 +2,10 @@
 
 #include <sys/types.h>
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "apps/weft/run/run_options.h"
+#include "runtime/io/process.h"
 
 namespace weft {
 
@@ -46,12 +45,12 @@ public:
 
 private:
     std::string ask(char command);
-    [[noreturn]] static void serve(const RunOptions& options, int in, int out);
+    void serve(const RunOptions& options);  // in the worker
 
     std::string devices_;
+    Pipe commands_;
+    Pipe answers_;
     pid_t process_ = -1;
-    int to_worker_ = -1;
-    int from_worker_ = -1;
 };
 
 }  // namespace weft
