@@ -9,6 +9,7 @@
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/opencl/probe.h"
+#include "runtime/split.h"
 #include "runtime/tbb/cpu_device.h"
 #include "scheduler/assert.h"
 
@@ -99,18 +100,6 @@ Part parse_part(const std::string& text) {
     return part;
 }
 
-/// The texts between the marks.
-std::vector<std::string> split(const std::string& list, char mark) {
-    std::vector<std::string> texts;
-    std::string rest = list;
-    while (true) {
-        const auto more = cut_off(rest, mark);
-        texts.push_back(rest);
-        if (!more) return texts;
-        rest = *more;
-    }
-}
-
 using Team = std::vector<Part>;
 
 Team parse_team(const std::string& list) {
@@ -146,15 +135,15 @@ int most_opencl_units(const Team& parts, int cores) {
     return std::clamp(all_numbered ? opencl : cores - cpu, 1, cores);
 }
 
-bool touches_opencl(const Team& parts) {
-    return !std::ranges::all_of(parts, [](const Part& part) { return part.is_cpu; });
+bool is_all_tbb(const Team& parts) {
+    return std::ranges::all_of(parts, [](const Part& part) { return part.is_cpu; });
 }
 
 /// Drivers make their threads once, for the team that needs most.
 int most_opencl_units(const std::vector<Team>& teams, int cores) {
     int most = 1;
     for (const Team& team : teams) {
-        if (touches_opencl(team)) most = std::max(most, most_opencl_units(team, cores));
+        if (!is_all_tbb(team)) most = std::max(most, most_opencl_units(team, cores));
     }
     return most;
 }
@@ -257,7 +246,7 @@ public:
 
     void open_into(std::vector<std::unique_ptr<Device>>& devices) {
         const int cores = static_cast<int>(free_cores_.size());
-        if (touches_opencl(parts_)) find_devices(parts_);
+        if (!is_all_tbb(parts_)) find_devices(parts_);
         share_cores(parts_, cores);
         open_opencl();
         for (const Part& part : parts_) {
@@ -331,7 +320,7 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
     const std::vector<Team> teams = parse(list);
     std::vector<std::unique_ptr<Device>> devices;
     std::vector<int> opencl_cores;
-    if (std::ranges::any_of(teams, touches_opencl)) {
+    if (!std::ranges::all_of(teams, is_all_tbb)) {
         opencl_cores = usable_cores();
         const auto cores = static_cast<int>(opencl_cores.size());
         const int units = most_opencl_units(teams, cores);
@@ -347,12 +336,16 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
     return devices;
 }
 
-void check_device_list(const std::string& list) {
+void check_device_list(const std::string& list) { static_cast<void>(touches_opencl(list)); }
+
+bool touches_opencl(const std::string& list) {
+    bool touches = false;
     for (const std::string& team : split(list, '|')) {
         for (const std::string& text : split(team, '+')) {
-            if (text != "hybrid") parse_part(text);
+            if (text == "hybrid" || !parse_part(text).is_cpu) touches = true;
         }
     }
+    return touches;
 }
 
 std::vector<std::string> available_devices() {

@@ -41,6 +41,9 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
 /// is meant for may be another one.
 void check_device_list(const std::string& list);
 
+/// Whether OpenCL is asked for such a list's devices. Throws likewise.
+bool touches_opencl(const std::string& list);
+
 /// Every single device of this machine as list elements: "cpu", "opencl:0", ...
 std::vector<std::string> available_devices();
 

@@ -329,6 +329,20 @@ Handle write_array(hid_t parent, const std::string& name, hid_t type,
     return dataset;
 }
 
+void write_numbers(hid_t parent, const std::string& name, std::span<const int> values) {
+    const hsize_t count = values.size();
+    write_array(parent, name, H5T_NATIVE_INT, {&count, 1}, values.data());
+}
+
+void write_numbers(hid_t parent, const std::string& name, std::span<const double> values) {
+    const hsize_t count = values.size();
+    write_array(parent, name, H5T_NATIVE_DOUBLE, {&count, 1}, values.data());
+}
+
+void write_number(hid_t parent, const std::string& name, double value) {
+    write_numbers(parent, name, std::span<const double>(&value, 1));
+}
+
 GrowingDataset::GrowingDataset(hid_t parent, const std::string& name, hid_t file_type,
                                std::vector<hsize_t> row_shape, hsize_t chunk_rows, unsigned deflate)
     : name_(name), row_shape_(std::move(row_shape)) {

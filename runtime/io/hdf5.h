@@ -125,6 +125,12 @@ std::vector<std::string> read_texts(hid_t parent, const std::string& name);
 Handle write_array(hid_t parent, const std::string& name, hid_t type,
                    std::span<const hsize_t> shape, const void* values);
 
+/// Along one dimension.
+void write_numbers(hid_t parent, const std::string& name, std::span<const int> values);
+void write_numbers(hid_t parent, const std::string& name, std::span<const double> values);
+/// One, as a list of it.
+void write_number(hid_t parent, const std::string& name, double value);
+
 /// A dataset that grows along its first dimension.
 class GrowingDataset {
 public:

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+
+#include "runtime/split.h"
 
 namespace weft {
 
@@ -16,12 +17,10 @@ namespace fs = std::filesystem;
 constexpr const char* kVendors = "OCL_ICD_VENDORS";
 constexpr const char* kNvidia = "libnvidia-opencl.so.1";
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> parts;
-    std::istringstream in(text);
-    for (std::string part; std::getline(in, part, ':');) {
-        if (!part.empty()) parts.push_back(part);
-    }
+/// Of a list as in PATH.
+std::vector<std::string> listed(const std::string& text) {
+    std::vector<std::string> parts = split(text, ':');
+    std::erase(parts, "");
     return parts;
 }
 
@@ -66,7 +65,7 @@ DriverPlaces usual_driver_places() {
     DriverPlaces places;
     if (const char* wanted = std::getenv("WEFT_OPENCL_DRIVERS")) places.wanted = wanted;
     if (const char* own = std::getenv("LD_LIBRARY_PATH")) {
-        for (const std::string& folder : split(own)) places.libraries.emplace_back(folder);
+        for (const std::string& folder : listed(own)) places.libraries.emplace_back(folder);
     }
     for (const char* folder :
          {"/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib",
@@ -78,7 +77,7 @@ DriverPlaces usual_driver_places() {
 }
 
 std::vector<std::string> unregistered_drivers(const DriverPlaces& places) {
-    std::vector<std::string> drivers = split(places.wanted);
+    std::vector<std::string> drivers = listed(places.wanted);
     const auto nvidia = std::ranges::find_if(
         places.libraries, [](const fs::path& folder) { return fs::exists(folder / kNvidia); });
     if (nvidia != places.libraries.end()) drivers.push_back((*nvidia / kNvidia).string());

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -16,6 +15,7 @@
 
 #include "runtime/io/process.h"
 #include "runtime/io/system_call.h"
+#include "runtime/split.h"
 
 namespace weft {
 
@@ -114,14 +114,6 @@ std::string end_of(int status) {
     return std::string("was ended by it (") + ::strsignal(WTERMSIG(status)) + ")";
 }
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> words;
-    std::istringstream in(line);
-    for (std::string word; std::getline(in, word, '\t');) words.push_back(word);
-    words.resize(6);
-    return words;
-}
-
 /// The platform that the child was at when it ended.
 struct Last {
     OpenClPlatform platform;
@@ -132,7 +124,8 @@ Last read(const std::string& text, std::vector<OpenClDeviceSummary>& devices) {
     Last last;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) {
-        const auto words = split(line);
+        auto words = split(line, '\t');
+        words.resize(6);  // also of what was cut off
         if (words[0] == "platform") last.platform = {std::atoi(words[1].c_str()), ""};
         if (words[0] == "name") last.platform.name = words[1];
         if (words[0] == "end") last.is_complete = true;

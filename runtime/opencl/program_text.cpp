@@ -7,6 +7,7 @@
 #include "kernels/sources.h"
 #include "runtime/error.h"
 #include "runtime/opencl/program.h"
+#include "runtime/split.h"
 
 namespace weft {
 
@@ -75,23 +76,12 @@ private:
     std::ostringstream out_;
 };
 
-/// The parts between commas.
-std::vector<std::string_view> split(std::string_view text) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t comma = text.find(',');
-        parts.push_back(text.substr(0, comma));
-        if (comma == std::string_view::npos) return parts;
-        text.remove_prefix(comma + 1);
-    }
-}
-
 /// As it is written: a parameter's declaration without its name, which stands last.
 std::string written_type(const kernels::KernelInfo& kernel, std::size_t parameter) {
-    const std::string_view text = split(kernel.parameter_text).at(parameter);
+    const std::string text = split(kernel.parameter_text, ',').at(parameter);
     const std::size_t last = text.find_last_not_of(" \n\t");
     const std::size_t name = text.find_last_of(" *\n\t", last);
-    return std::string(text.substr(0, name + 1)) + ' ';
+    return text.substr(0, name + 1) + ' ';
 }
 
 std::string type_name(const kernels::KernelInfo& kernel, std::size_t parameter) {

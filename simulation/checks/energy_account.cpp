@@ -96,14 +96,6 @@ double most_strain(const Model& model, const Strain& strain) {
 
 }  // namespace
 
-double reach_of(std::span<const float4> positions) {
-    float most = 0.0f;
-    for (const float4& x : positions) {
-        most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    }
-    return static_cast<double>(most);
-}
-
 EnergyAccount::EnergyAccount(const Model& model, const Energies& start)
     : closed_(last_closing(model.scene)),
       small_(kSmallFall * size_of(model) * length(model.scene.gravity_at(0.0)) * mass_of(model) +

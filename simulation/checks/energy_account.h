@@ -59,7 +59,4 @@ private:
     Entry last_;
 };
 
-/// The largest coordinate [m].
-double reach_of(std::span<const float4> positions);
-
 }  // namespace weft

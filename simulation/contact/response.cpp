@@ -17,6 +17,7 @@
 #include "simulation/contact/stiffness.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
+#include "simulation/model/reach.h"
 
 namespace weft {
 
@@ -44,19 +45,10 @@ int first_room(const Model& model, std::size_t bytes) {
     return std::clamp(static_cast<int>(RowTable::kPlenty / 4 / all), kFewest, kMost);
 }
 
-/// The largest coordinate [m].
-double reach_of(const Model& model) {
-    float most = 0.0f;
-    for (const float4& x : model.positions->span()) {
-        most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    }
-    return static_cast<double>(most);
-}
-
 /// How far surfaces that stick may creep in a substep [m]; no less than coordinates can tell.
 double creep_of(const Model& model) {
     constexpr double kUlp = std::numeric_limits<float>::epsilon();
-    return std::max(kCreepSpeed * model.h, 4.0 * kUlp * reach_of(model));
+    return std::max(kCreepSpeed * model.h, 4.0 * kUlp * reach_of(model.positions->span()));
 }
 
 template <class T>
@@ -118,7 +110,8 @@ std::unique_ptr<ContactResponse> ContactResponse::of(Model& model, int first_kin
 ContactResponse::ContactResponse(Model& model, int first_kind)
     : model_(model),
       range_(static_cast<float>(model.scene.contact->thickness)),
-      floor_(static_cast<float>(contact_floor(model.scene.contact->thickness, reach_of(model)))),
+      floor_(static_cast<float>(
+          contact_floor(model.scene.contact->thickness, reach_of(model.positions->span())))),
       friction_(static_cast<float>(model.scene.contact->friction.value_or(0.0))),
       creep_(static_cast<float>(creep_of(model))),
       anchors_("contact.anchors", model.positions->count()),

@@ -7,24 +7,11 @@
 
 #include "runtime/error.h"
 #include "runtime/io/hdf5.h"
+#include "simulation/output/point_column.h"
 
 namespace weft {
 
 namespace {
-
-template <class Value>
-void write_column(hid_t group, const std::string& name, hid_t type, const ErrorCurve& curve,
-                  Value ErrorPoint::*member) {
-    std::vector<Value> values;
-    for (const ErrorPoint& point : curve.points) values.push_back(point.*member);
-    const std::array<hsize_t, 1> shape = {values.size()};
-    hdf5::write_array(group, name, type, shape, values.data());
-}
-
-void write_number(hid_t group, const std::string& name, double value) {
-    const std::array<hsize_t, 1> shape = {1};
-    hdf5::write_array(group, name, H5T_NATIVE_DOUBLE, shape, &value);
-}
 
 void write_curve(hid_t parent, const std::string& name, const ErrorCurve& curve) {
     const hdf5::Handle group = hdf5::create_group(parent, name);
@@ -32,24 +19,23 @@ void write_curve(hid_t parent, const std::string& name, const ErrorCurve& curve)
     hdf5::write_text_attribute(group.id(), "device", curve.devices);
     hdf5::write_text_attribute(group.id(), "plan", curve.plan);
     hdf5::write_text_attribute(group.id(), "end", curve.end);
-    write_column(group.id(), "iteration", H5T_NATIVE_INT, curve, &ErrorPoint::iteration);
-    write_column(group.id(), "time_s", H5T_NATIVE_DOUBLE, curve, &ErrorPoint::time);
-    write_column(group.id(), "energy", H5T_NATIVE_DOUBLE, curve, &ErrorPoint::energy);
-    write_column(group.id(), "relative_error", H5T_NATIVE_DOUBLE, curve,
-                 &ErrorPoint::relative_error);
-    write_column(group.id(), "relative_error_estimate", H5T_NATIVE_DOUBLE, curve,
-                 &ErrorPoint::estimate);
-    write_column(group.id(), "truncated", H5T_NATIVE_INT, curve, &ErrorPoint::truncated);
+    write_column<int>(group.id(), "iteration", curve.points, &ErrorPoint::iteration);
+    write_column<double>(group.id(), "time_s", curve.points, &ErrorPoint::time);
+    write_column<double>(group.id(), "energy", curve.points, &ErrorPoint::energy);
+    write_column<double>(group.id(), "relative_error", curve.points, &ErrorPoint::relative_error);
+    write_column<double>(group.id(), "relative_error_estimate", curve.points,
+                         &ErrorPoint::estimate);
+    write_column<int>(group.id(), "truncated", curve.points, &ErrorPoint::truncated);
 }
 
 void write_reference(hid_t parent, const ErrorStudy& study) {
     const hdf5::Handle reference = hdf5::create_group(parent, "reference");
     const Minimum& minimum = study.minimum;
-    write_number(reference.id(), "start_energy", minimum.start_energy);
-    write_number(reference.id(), "energy", minimum.energy);
-    write_number(reference.id(), "relative_gradient", minimum.certificate.relative_gradient);
-    write_number(reference.id(), "relative_gap", minimum.certificate.relative_gap);
-    write_number(reference.id(), "rounding_floor", study.rounding_floor);
+    hdf5::write_number(reference.id(), "start_energy", minimum.start_energy);
+    hdf5::write_number(reference.id(), "energy", minimum.energy);
+    hdf5::write_number(reference.id(), "relative_gradient", minimum.certificate.relative_gradient);
+    hdf5::write_number(reference.id(), "relative_gap", minimum.certificate.relative_gap);
+    hdf5::write_number(reference.id(), "rounding_floor", study.rounding_floor);
 }
 
 void write_curves(hid_t parent, const ErrorStudy& study) {

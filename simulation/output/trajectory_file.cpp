@@ -6,26 +6,11 @@
 
 #include "runtime/error.h"
 #include "runtime/io/hdf5.h"
+#include "simulation/output/point_column.h"
 
 namespace weft {
 
 namespace {
-
-void write_number(hid_t group, const std::string& name, double value) {
-    const std::array<hsize_t, 1> shape = {1};
-    hdf5::write_array(group, name, H5T_NATIVE_DOUBLE, shape, &value);
-}
-
-template <class Stored, class Value>
-void write_column(hid_t group, const std::string& name, hid_t type, const TrajectoryCurve& curve,
-                  Value TrajectoryPoint::*member) {
-    std::vector<Stored> values;
-    for (const TrajectoryPoint& point : curve.points) {
-        values.push_back(static_cast<Stored>(point.*member));
-    }
-    const std::array<hsize_t, 1> shape = {values.size()};
-    hdf5::write_array(group, name, type, shape, values.data());
-}
 
 void write_curve(hid_t parent, const std::string& name, const TrajectoryCurve& curve) {
     const hdf5::Handle group = hdf5::create_group(parent, name);
@@ -38,13 +23,12 @@ void write_curve(hid_t parent, const std::string& name, const TrajectoryCurve& c
         unfinished += fmt::format("{} x {}: {}\n", run.substeps, run.iterations, run.why);
     }
     hdf5::write_text_attribute(id, "unfinished", unfinished);
-    write_column<int>(id, "substeps", H5T_NATIVE_INT, curve, &TrajectoryPoint::substeps);
-    write_column<int>(id, "iterations", H5T_NATIVE_INT, curve, &TrajectoryPoint::iterations);
-    write_column<double>(id, "time_s", H5T_NATIVE_DOUBLE, curve, &TrajectoryPoint::time);
-    write_column<double>(id, "rms_m", H5T_NATIVE_DOUBLE, curve, &TrajectoryPoint::distance);
-    write_column<double>(id, "last_rms_m", H5T_NATIVE_DOUBLE, curve,
-                         &TrajectoryPoint::last_distance);
-    write_column<int>(id, "pareto", H5T_NATIVE_INT, curve, &TrajectoryPoint::on_front);
+    write_column<int>(id, "substeps", curve.points, &TrajectoryPoint::substeps);
+    write_column<int>(id, "iterations", curve.points, &TrajectoryPoint::iterations);
+    write_column<double>(id, "time_s", curve.points, &TrajectoryPoint::time);
+    write_column<double>(id, "rms_m", curve.points, &TrajectoryPoint::distance);
+    write_column<double>(id, "last_rms_m", curve.points, &TrajectoryPoint::last_distance);
+    write_column<int>(id, "pareto", curve.points, &TrajectoryPoint::on_front);
 }
 
 void write_reference(hid_t parent, const TrajectoryStudy& study) {
@@ -52,7 +36,7 @@ void write_reference(hid_t parent, const TrajectoryStudy& study) {
     hdf5::write_text_attribute(reference.id(), "by", study.reference_by);
     const std::array<int, 1> substeps = {study.reference_substeps};
     hdf5::write_int_attribute(reference.id(), "substeps", substeps);
-    write_number(reference.id(), "doubt_m", study.doubt);
+    hdf5::write_number(reference.id(), "doubt_m", study.doubt);
 }
 
 void write_curves(hid_t parent, const TrajectoryStudy& study) {

@@ -23,8 +23,7 @@ void write_column(hid_t group, const std::string& name, const std::vector<const 
             values.push_back(cell->is_null() ? std::numeric_limits<double>::quiet_NaN()
                                              : cell->get<double>());
         }
-        const hsize_t size = values.size();
-        hdf5::write_array(group, name, H5T_NATIVE_DOUBLE, {&size, 1}, values.data());
+        hdf5::write_numbers(group, name, values);
         return;
     }
     std::vector<std::string> texts;

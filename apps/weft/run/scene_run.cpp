@@ -29,11 +29,6 @@ namespace {
 /// The kernels' binaries are kept for the next run.
 constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
 
-bool touches_opencl(const std::string& devices) {
-    return devices.find("opencl") != std::string::npos ||
-           devices.find("hybrid") != std::string::npos || devices.find("gpu") != std::string::npos;
-}
-
 std::vector<GeometryBody> geometry_bodies(const Model& model) {
     std::vector<GeometryBody> bodies;
     for (const BodyRange& body : model.bodies) {

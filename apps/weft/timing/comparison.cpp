@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "runtime/split.h"
 #include "scheduler/order_statistics.h"
 
 namespace weft {
@@ -26,12 +26,7 @@ const ComparisonRow* find_row(const std::vector<ComparisonRow>& rows, const std:
 
 }  // namespace
 
-std::vector<std::string> devices_of(const std::string& list) {
-    std::vector<std::string> devices;
-    std::istringstream in(list);
-    for (std::string device; std::getline(in, device, '+');) devices.push_back(device);
-    return devices;
-}
+std::vector<std::string> devices_of(const std::string& list) { return split(list, '+'); }
 
 ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample>& frames,
                        const EndState& end) {

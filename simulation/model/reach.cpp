@@ -1,0 +1,16 @@
+#include "simulation/model/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+
+double reach_of(std::span<const float4> positions) {
+    float most = 0.0f;
+    for (const float4& x : positions) {
+        most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    }
+    return static_cast<double>(most);
+}
+
+}  // namespace weft
