@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -19,25 +18,15 @@
 #include "apps/weft/plan/adaptations.h"
 #include "apps/weft/plan/cost_file.h"
 #include "apps/weft/plan/graph_file.h"
-#include "apps/weft/plan/plan_text.h"
+#include "apps/weft/plan/plan_report.h"
+#include "apps/weft/plan/timed_plan.h"
 #include "apps/weft/plan/trace_graph.h"
 #include "apps/weft/studies/machine_study.h"
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
-#include "scheduler/optimal.h"
-#include "scheduler/planner.h"
-#include "scheduler/portfolio.h"
 
 namespace weft {
 namespace {
-
-using nlohmann::ordered_json;
-using scheduler::Plan;
-using scheduler::Planner;
-using scheduler::TaskId;
-
-// For one plan at leisure, unlike the runtime's one per frame.
-constexpr std::uint32_t kPortfolioEvaluations = 20000;
 
 struct PlanOptions {
     std::string graph;
@@ -57,108 +46,10 @@ struct PlanOptions {
     std::optional<std::string> out;
 };
 
-struct TimedPlan {
-    Plan plan;
-    double seconds = 0.0;
-};
-
-std::vector<std::string> algorithm_names() {
-    return {scheduler::planner_names().begin(), scheduler::planner_names().end()};
-}
-
-std::unique_ptr<Planner> planner_for(const std::string& name, double time_limit) {
-    if (name == "optimal") {
-        return std::make_unique<scheduler::Optimal>(
-            scheduler::SearchLimit{.nodes = ~std::uint64_t{0}, .seconds = time_limit});
-    }
-    if (name == "portfolio") {
-        return std::make_unique<scheduler::Portfolio>(scheduler::PortfolioBudget{
-            .evaluations = kPortfolioEvaluations, .seconds = time_limit});
-    }
-    return scheduler::make_planner(name);
-}
-
-TimedPlan make_plan(const GraphFile& file, const std::string& algorithm, double time_limit) {
-    TimedPlan result;
-    const auto begin = std::chrono::steady_clock::now();
-    planner_for(algorithm, time_limit)->plan(file.graph, result.plan);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    result.seconds = took.count();
-    return result;
-}
-
-std::string verdict(const Plan& plan) {
-    if (plan.proven_optimal) return "optimal";
-    return plan.gave_up ? "gave up at its limit" : "";
-}
-
-ordered_json summary_json(const TimedPlan& result) {
-    const Plan& plan = result.plan;
-    return {{"algorithm", plan.algorithm},
-            {"found_by", plan.found_by},
-            {"makespan", plan.makespan},
-            {"lower_bound", plan.lower_bound()},
-            {"path_bound", plan.path_bound},
-            {"area_bound", plan.area_bound},
-            {"gap", plan.gap()},
-            {"proven_optimal", plan.proven_optimal},
-            {"gave_up", plan.gave_up},
-            {"plan_us", 1e6 * result.seconds}};
-}
-
-/// What JSON says of a recorded frame, in seconds.
-ordered_json frame_json(const TraceGraph& trace) {
-    return {
-        {"scene", trace.scene},
-        {"frame", trace.frame},
-        {"substeps", trace.substeps},
-        {"strips", trace.strips},
-        {"recorded",
-         {{"planner", trace.planner}, {"makespan", trace.planned}, {"measured", trace.measured}}}};
-}
-
-void print_json(const GraphFile& file, const TimedPlan& result, const TraceGraph* trace) {
-    ordered_json json = summary_json(result);
-    if (trace != nullptr) json.update(frame_json(*trace));
-    json["tasks"] = ordered_json::array();
-    for (TaskId t = 0; t < file.graph.task_count(); ++t) {
-        const scheduler::Placement& own = result.plan.placements[t];
-        json["tasks"].push_back({{"name", file.graph.name(t)},
-                                 {"processor", file.processors[own.processor]},
-                                 {"start", own.start},
-                                 {"end", own.end}});
-    }
-    std::cout << json_text(json) << '\n';
-}
-
-std::string time_text(const GraphFile& file, double time) {
-    return fmt::format("{:.8g}{}{}", file.unit.factor * time, file.unit.name.empty() ? "" : " ",
-                       file.unit.name);
-}
-
-/// What is planned, and what became of it in the run.
-void print_frame(const TraceGraph& trace) {
-    std::cout << fmt::format(
-        "{}, frame {}: one of its {} substeps, {} tasks; strips per device: {}\n"
-        "recorded     planned {} by {}, measured {} on average\n\n",
-        trace.scene, trace.frame, trace.substeps, trace.file.graph.task_count(),
-        fmt::join(trace.strips, ", "), time_text(trace.file, trace.planned), trace.planner,
-        time_text(trace.file, trace.measured));
-}
-
-void print_text(const GraphFile& file, const TimedPlan& result) {
-    const Plan& plan = result.plan;
-    std::cout << plan_table(file, plan) << '\n' << plan_gantt(file, plan) << '\n';
-    const std::string part =
-        plan.found_by == plan.algorithm ? "" : fmt::format(" (found by {})", plan.found_by);
-    const std::string note = verdict(plan);
-    std::cout << fmt::format("algorithm    {}{}\n", plan.algorithm, part)
-              << fmt::format("makespan     {}{}\n", time_text(file, plan.makespan),
-                             note.empty() ? "" : ", " + note)
-              << fmt::format("lower bound  {} (path {}, area {})\n",
-                             time_text(file, plan.lower_bound()), time_text(file, plan.path_bound),
-                             time_text(file, plan.area_bound))
-              << fmt::format("gap          {:.1f} %\n", 100.0 * plan.gap());
+void print_plan(const GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
+    const TimedPlan result = make_plan(file, options.algorithm, options.time_limit);
+    std::cout << (options.json ? json_text(plan_json(file, result, trace)) + '\n'
+                               : plan_report(file, result));
 }
 
 void print_comparison(const GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
@@ -166,47 +57,18 @@ void print_comparison(const GraphFile& file, const PlanOptions& options, const T
     for (const std::string& name : algorithm_names()) {
         rows.push_back(make_plan(file, name, options.time_limit));
     }
-    double bound = 0.0;  // one row may prove more than the others
-    for (const TimedPlan& row : rows) bound = std::max(bound, row.plan.lower_bound());
-    if (options.json) {
-        ordered_json json{{"processors", file.processors},
-                          {"tasks", file.graph.task_count()},
-                          {"edges", file.graph.edge_count()},
-                          {"lower_bound", bound},
-                          {"rows", ordered_json::array()}};
-        if (trace != nullptr) json.update(frame_json(*trace));
-        for (const TimedPlan& row : rows) json["rows"].push_back(summary_json(row));
-        std::cout << json_text(json) << '\n';
-        return;
-    }
-    const Plan& first = rows.front().plan;
-    std::cout << fmt::format("{} tasks, {} edges, {} processors\n", file.graph.task_count(),
-                             file.graph.edge_count(), file.processors.size())
-              << fmt::format("lower bound {} (path {}, area {})\n\n", time_text(file, bound),
-                             time_text(file, first.path_bound), time_text(file, first.area_bound))
-              << fmt::format(
-                     "{:<10} {:>14} {:>12} {:>12}\n", "algorithm",
-                     file.unit.name.empty() ? "makespan" : "makespan [" + file.unit.name + "]",
-                     "above bound", "planning");
-    for (const TimedPlan& row : rows) {
-        const double above = bound > 0.0 ? 100.0 * (row.plan.makespan / bound - 1.0) : 0.0;
-        const std::string line = fmt::format(
-            "{:<10} {:>14.8g} {:>10.1f} % {:>9.1f} us  {}", row.plan.algorithm,
-            file.unit.factor * row.plan.makespan, above, 1e6 * row.seconds, verdict(row.plan));
-        std::cout << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
-    }
+    std::cout << (options.json ? json_text(comparison_json(file, rows, trace)) + '\n'
+                               : comparison_text(file, rows));
 }
 
 /// trace: null for a graph that is none's.
 void plan_graph(GraphFile& file, const PlanOptions& options, const TraceGraph* trace) {
     adapt(file.graph, options.adaptations);
-    if (trace != nullptr && !options.json) print_frame(*trace);
-    if (options.compare) return print_comparison(file, options, trace);
-    const TimedPlan result = make_plan(file, options.algorithm, options.time_limit);
-    if (options.json) {
-        print_json(file, result, trace);
+    if (trace != nullptr && !options.json) std::cout << frame_text(*trace);
+    if (options.compare) {
+        print_comparison(file, options, trace);
     } else {
-        print_text(file, result);
+        print_plan(file, options, trace);
     }
 }
 
@@ -287,6 +149,31 @@ void add_adaptation_options(CLI::App& command, Adaptations& adaptations) {
         ->group(group);
 }
 
+void add_trace_options(CLI::App& command, PlanOptions& options) {
+    const std::string group = "Traces";
+    command.add_option("--frame", options.frame, "number of the frame; default: the last one")
+        ->type_name("N")
+        ->group(group);
+    command
+        .add_option("--costs", options.costs, "plan with the costs in this file (.json) instead")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_flag("--pinned", options.pinned,
+                  "each task stays on the device that was given its strips")
+        ->group(group);
+    command
+        .add_option("--strips", options.strips,
+                    "divide the strips anew: auto finds the best division, N,N gives each device "
+                    "so many; default: as in the run")
+        ->type_name("auto|N,N")
+        ->group(group);
+    command
+        .add_flag("--print-costs", options.print_costs,
+                  "print the costs as a file for --costs, and stop")
+        ->group(group);
+}
+
 void add_machine_options(CLI::App& command, PlanOptions& options) {
     const std::string group = "Machines that need not be there";
     CLI::Option* machines = command.add_flag(
@@ -360,28 +247,7 @@ void add_plan_command(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON document");
     add_adaptation_options(*command, options->adaptations);
-    const std::string group = "Traces";
-    command->add_option("--frame", options->frame, "number of the frame; default: the last one")
-        ->type_name("N")
-        ->group(group);
-    command
-        ->add_option("--costs", options->costs, "plan with the costs in this file (.json) instead")
-        ->type_name("FILE")
-        ->group(group);
-    command
-        ->add_flag("--pinned", options->pinned,
-                   "each task stays on the device that was given its strips")
-        ->group(group);
-    command
-        ->add_option("--strips", options->strips,
-                     "divide the strips anew: auto finds the best division, N,N gives each device "
-                     "so many; default: as in the run")
-        ->type_name("auto|N,N")
-        ->group(group);
-    command
-        ->add_flag("--print-costs", options->print_costs,
-                   "print the costs as a file for --costs, and stop")
-        ->group(group);
+    add_trace_options(*command, *options);
     add_machine_options(*command, *options);
     command->callback([options] {
         try {
