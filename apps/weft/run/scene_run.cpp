@@ -9,18 +9,13 @@
 
 #include "apps/weft/output/progress.h"
 #include "apps/weft/output/warnings.h"
+#include "apps/weft/run/run_origin.h"
 #include "apps/weft/run/run_record.h"
+#include "apps/weft/run/settled_choice.h"
 #include "runtime/clock.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
-#include "runtime/io/cache_folder.h"
-#include "runtime/unused_memory.h"
-#include "simulation/bodies/mesh_files.h"
-#include "simulation/output/any_checkpoint.h"
-#include "simulation/run_description.h"
 #include "simulation/scene/auto_method.h"
-#include "simulation/solver/async_iterates.h"
-#include "simulation/solver_choice.h"
 
 namespace weft {
 
@@ -29,63 +24,18 @@ namespace {
 /// The kernels' binaries are kept for the next run.
 constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
 
-std::vector<GeometryBody> geometry_bodies(const Model& model) {
-    std::vector<GeometryBody> bodies;
-    for (const BodyRange& body : model.bodies) {
-        bodies.push_back({body.name, static_cast<std::uint32_t>(body.triangle_count)});
-    }
-    return bodies;
-}
-
-std::vector<GeometryWriter::Triangle> geometry_triangles(const Model& model) {
-    std::vector<GeometryWriter::Triangle> triangles;
-    triangles.reserve(model.triangles.size());
-    const auto index = [](int vertex) { return static_cast<std::uint32_t>(vertex); };
-    for (const auto& t : model.triangles)
-        triangles.push_back({index(t[0]), index(t[1]), index(t[2])});
-    return triangles;
-}
-
-/// What the results depend on, of what the user wrote. The number of frames may differ.
-std::string origin_of(const RunOptions& options, const Scene& scene) {
-    std::string text = std::string(WEFT_VERSION) + '\n' + options.math + '\n' + scene.text;
-    for (const std::string& value : scene.overrides) {
-        if (!value.starts_with("scene.frames=")) text += '\n' + value;
-    }
-    return text;
-}
-
-std::string named(const TextPairs& pairs, const std::string& name) {
-    const auto found = std::ranges::find(pairs, name, &TextPairs::value_type::first);
-    if (found == pairs.end()) throw UserError("the checkpoint does not say: " + name);
-    return found->second;
-}
-
-SolverChoice recorded_choice(const TextPairs& settings) {
-    const auto number = [&](const char* name) {
-        try {
-            return std::stoi(named(settings, name));
-        } catch (const std::logic_error&) {
-            throw UserError(std::string("the checkpoint is damaged: ") + name +
-                            " is no number; --force starts the run anew");
-        }
-    };
-    return {method_named(named(settings, "method")), number("iterations"), number("substeps"),
-            named(settings, "solver_choice")};
-}
-
 }  // namespace
 
 SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     : options_(options),
       keeps_checkpoint_(keeps_checkpoint),
       scene_(read_scene(options.scene, options.overrides())),
-      origin_(origin_of(options, scene_)),
+      origin_(request_text(options, scene_)),
       folder_(options.folder_for(scene_.name), options.force) {
-    if (!options.no_geometry) check_states();
+    if (!options.no_geometry) check_geometry_states(scene_, options.scene);
     settle_solver();
     set_up();
-    complete_origin();
+    origin_ = run_origin(origin_, options_, scene_, *simulation_);
     RunDescription description = describe();
     if (options_.resume) find_earlier(description);
     description.warnings = all_warnings();
@@ -97,30 +47,9 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     last_checkpoint_ = now();
 }
 
-/// Their file is laid out in advance, with some 500 bytes for each of them.
-void SceneRun::check_states() const {
-    constexpr std::size_t kMost = 1'000'000;
-    const std::size_t states = geometry_steps(scene_.frames);
-    if (states <= kMost) return;
-    throw UserError(
-        fmt::format("{}: geometry would have {} states, and the most are {}; a larger "
-                    "[output] every leaves some out, --no-geometry all of them",
-                    options_.scene, states, kMost));
-}
-
-/// Measured once: a run that goes on has the solver that it began with.
 void SceneRun::settle_solver() {
     if (!auto_method(scene_)) return;
-    std::optional<Checkpoint> earlier;  // whether it is of this run, is seen when it goes on
-    if (options_.resume && std::filesystem::exists(folder_.checkpoint()))
-        earlier = read_any_checkpoint(folder_.checkpoint());
-    if (!earlier && !options_.quiet) {
-        std::cerr << fmt::format("weft: {}: measuring which solver serves best\n", scene_.name)
-                  << std::flush;
-    }
-    const SolverChoice choice = earlier
-                                    ? recorded_choice(settings_of(*earlier, folder_.checkpoint()))
-                                    : choose_solver(scene_, options_.simulation().plan);
+    const SolverChoice choice = settled_choice(scene_, options_, folder_.checkpoint());
     scene_ = with_choice(std::move(scene_), choice);
     solver_choice_ = choice.why;
 }
@@ -129,27 +58,6 @@ RunDescription SceneRun::describe() const {
     RunDescription description = describe_run(*simulation_, options_);
     if (!solver_choice_.empty()) description.settings.emplace_back("solver_choice", solver_choice_);
     return description;
-}
-
-/// With the meshes, once it is known that they can be read, and what a checkpoint's positions count
-/// from.
-void SceneRun::complete_origin() {
-    for (const BodyMesh& mesh : mesh_files(scene_)) origin_ += '\n' + file_hash(mesh.path);
-    const std::string counted_from = origin_setting(simulation_->model());
-    if (!counted_from.empty()) origin_ += '\n' + counted_from;
-    origin_ = cache_key(origin_ + async_origin());
-}
-
-/// Asynchronous results depend on the map, which depends on the cuts.
-std::string SceneRun::async_origin() const {
-    const auto* async = dynamic_cast<const AsyncIterates*>(&simulation_->solver());
-    if (async == nullptr) return "";
-    std::string text = '\n' + to_text(async->settings());
-    text += fmt::format("\nstrips {}\nunits", fmt::join(options_.strips, ","));
-    for (const auto& device : simulation_->devices()) {
-        text += fmt::format(" {}", device->info().units);
-    }
-    return text;
 }
 
 /// Where nothing was left to go on from, the run begins at the beginning.
@@ -163,7 +71,7 @@ void SceneRun::find_earlier(const RunDescription& description) {
     const Outputs outputs = {.trace = !options_.no_trace,
                              .geometry = !options_.no_geometry,
                              .state_interval = scene_.output.every * scene_.dt,
-                             .states = geometry_steps(checkpoint->frame)};
+                             .states = geometry_states(scene_, checkpoint->frame)};
     earlier_.emplace(folder_, *checkpoint, outputs, description);
     simulation_->resume(*checkpoint);
     warn_of_missing_outputs();
@@ -201,7 +109,7 @@ void SceneRun::take_over() {
     earlier_->hand_over(*summary_);
     clock_offset_ = summary_->end();
     if (trace_) earlier_->hand_over(*trace_);
-    if (geometry_) earlier_->hand_over(*geometry_);
+    if (geometry_) earlier_->hand_over(geometry_->writer());
     if (!options_.quiet) {
         std::cerr << fmt::format("weft: {}: going on after {} of {} frames\n", scene_.name,
                                  earlier_->frames(), scene_.frames);
@@ -257,26 +165,8 @@ Warnings SceneRun::all_warnings() const {
 }
 
 void SceneRun::open_geometry() {
-    const Model& model = simulation_->model();
-    const auto triangles = geometry_triangles(model);
-    geometry_.emplace(folder_.geometry(), triangles, static_cast<std::size_t>(model.vertex_count()),
-                      geometry_bodies(model), geometry_steps(scene_.frames),
-                      scene_.output.compression);
-    give_back_freed();  // copies of all triangles
-    if (!earlier_ || !earlier_->has_geometry()) append_geometry();
-}
-
-/// Of the states after 0, 1, ... `frames` frames, those that are written.
-std::size_t SceneRun::geometry_steps(int frames) const {
-    return static_cast<std::size_t>(frames / scene_.output.every) + 1;
-}
-
-void SceneRun::append_geometry() {
-    if (simulation_->frame() % scene_.output.every != 0) return;
-    geometry_->append(simulation_->time(),
-                      [model = simulation_->shared_model(), state = simulation_->snapshot()] {
-                          return model->in_scene(state->ordered_positions(*model));
-                      });
+    geometry_.emplace(folder_.geometry(), scene_, simulation_->model());
+    if (!earlier_ || !earlier_->has_geometry()) geometry_->append(*simulation_);
 }
 
 void SceneRun::advance_all(const InterruptNotice& notice) {
@@ -289,7 +179,7 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
         say_troubles(record);
         // First of all, so that a killed run's trace is no more than one frame behind its geometry.
         if (trace_) trace_->settle();
-        if (geometry_) append_geometry();
+        if (geometry_) geometry_->append(*simulation_);
         if (std::isfinite(record.relative_error)) {
             convergence_ = fmt::format("error of a step {:.1g}", record.relative_error);
         }

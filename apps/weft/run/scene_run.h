@@ -5,6 +5,7 @@
 #include "apps/weft/run/earlier_run.h"
 #include "apps/weft/run/interrupt.h"
 #include "apps/weft/run/output_folder.h"
+#include "apps/weft/run/run_geometry.h"
 #include "apps/weft/run/run_options.h"
 #include "simulation/simulation.h"
 
@@ -30,13 +31,10 @@ public:
     Warnings all_warnings() const;
 
 private:
-    void check_states() const;
     void settle_solver();
     RunDescription describe() const;
     void set_up();
     void say_what_runs() const;
-    void complete_origin();
-    std::string async_origin() const;
     void find_earlier(const RunDescription& description);
     void warn_of_missing_outputs();
     void claim_folder();
@@ -46,8 +44,6 @@ private:
     void append_trace(FrameRecord record);
     void keep_checkpoint();
     Checkpoint checkpoint() const;
-    std::size_t geometry_steps(int frames) const;
-    void append_geometry();
     void say_losses(FrameRecord& record);
     void say_troubles(FrameRecord& record);
     std::string text_of(const LostDevice& lost) const;
@@ -62,7 +58,7 @@ private:
     std::optional<Simulation> simulation_;
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
-    std::optional<GeometryWriter> geometry_;
+    std::optional<RunGeometry> geometry_;
     std::string convergence_;  ///< how far steps are solved, as last estimated
     std::size_t losses_said_ = 0;
     std::size_t troubles_said_ = 0;
