@@ -123,6 +123,15 @@ std::vector<Team> parse(const std::string& list) {
     return teams;
 }
 
+/// As they are written, of all teams.
+std::vector<std::string> elements_of(const std::string& list) {
+    std::vector<std::string> elements;
+    for (const std::string& team : split(list, '|')) {
+        for (const std::string& text : split(team, '+')) elements.push_back(text);
+    }
+    return elements;
+}
+
 /// How many of the cores OpenCL may take at most, as the list says it: no driver is asked yet.
 int most_opencl_units(const Team& parts, int cores) {
     int opencl = 0;
@@ -336,16 +345,16 @@ std::vector<std::unique_ptr<Device>> open_devices(const std::string& list,
     return devices;
 }
 
-void check_device_list(const std::string& list) { static_cast<void>(touches_opencl(list)); }
+void check_device_list(const std::string& list) {
+    for (const std::string& text : elements_of(list)) {
+        if (text != "hybrid") parse_part(text);
+    }
+}
 
 bool touches_opencl(const std::string& list) {
-    bool touches = false;
-    for (const std::string& team : split(list, '|')) {
-        for (const std::string& text : split(team, '+')) {
-            if (text == "hybrid" || !parse_part(text).is_cpu) touches = true;
-        }
-    }
-    return touches;
+    return std::ranges::any_of(elements_of(list), [](const std::string& text) {
+        return text == "hybrid" || !parse_part(text).is_cpu;
+    });
 }
 
 std::vector<std::string> available_devices() {

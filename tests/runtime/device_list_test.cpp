@@ -169,5 +169,13 @@ TEST(DeviceList, IsCheckedWithoutLookingForDevices) {
     }
 }
 
+TEST(DeviceList, SaysWhetherOpenClIsAskedFor) {
+    for (const char* list : {"cpu", "cpu/2", "cpu/1|cpu"}) EXPECT_FALSE(touches_opencl(list));
+    for (const char* list : {"gpu", "hybrid", "cpu+opencl:0/1", "cpu|opencl:nonesuch"}) {
+        EXPECT_TRUE(touches_opencl(list)) << list;
+    }
+    EXPECT_THROW(touches_opencl("cpu+"), UserError);
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -25,7 +25,7 @@ std::string answer_of(const std::function<std::string()>& work) {
 
 bool is_failure(const std::string& answer) { return answer.at(0) != kDone; }
 
-std::string taken(const std::string& answer, const std::string& what) {
+std::string result_of(const std::string& answer, const std::string& what) {
     const std::string text = answer.substr(1);
     if (answer[0] == kUserError) throw UserError(text);
     if (answer[0] == kRunError) throw RunError(what + ": " + text);

@@ -12,6 +12,6 @@ bool is_failure(const std::string& answer);
 
 /// What the work returned, of its answer. Throws UserError or RunError, as it did; `what` names it
 /// in the latter.
-std::string taken(const std::string& answer, const std::string& what);
+std::string result_of(const std::string& answer, const std::string& what);
 
 }  // namespace weft

@@ -33,7 +33,7 @@ std::string in_child_process(const std::string& what, const std::function<std::s
     pipe.close_reader();
     wait_for_process(process);
     if (answer.empty()) throw RunError(what + ": the process that ran it was killed");
-    return taken(answer, what);
+    return result_of(answer, what);
 }
 
 }  // namespace weft

@@ -116,7 +116,7 @@ std::string FrameWorker::ask(char command) {
     const std::string answer = read_line(answers_.reader());
     if (!is_sent && answer.empty()) throw RunError(devices_ + ": the worker process has ended");
     if (answer.empty()) throw RunError(devices_ + ": the worker process was killed");
-    return taken(answer, devices_);
+    return result_of(answer, devices_);
 }
 
 void FrameWorker::wait_until_ready() { ask(kReady); }
