@@ -30,22 +30,34 @@ typedef struct {
     real least;                           ///< stiffness of one that moves [N/m]
 } contact_pair;
 
-/// corners  whole numbers of the vertices
-WEFT_INLINE contact_pair load_pair(WEFT_GLOBAL const float4* anchors,
-                                   WEFT_GLOBAL const float4* goals,
-                                   WEFT_GLOBAL const float* stiffness, integer c0, integer c1,
-                                   integer c2, integer c3) {
+/// What vertices have that may be of a pair; see fill_contacts.
+typedef struct {
+    WEFT_GLOBAL const float4* anchors;
+    WEFT_GLOBAL const float4* goals;
+    WEFT_GLOBAL const float* stiffness;
+} contact_vertices;
+
+/// Four vertices.
+typedef struct {
+    whole c0, c1, c2, c3;
+} contact_corners;
+
+WEFT_INLINE contact_pair load_pair(contact_vertices vertices, contact_corners corners) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
-    const real4 g0 = gather4(goals, c0);
-    const real4 g1 = gather4(goals, c1);
-    const real4 g2 = gather4(goals, c2);
-    const real4 g3 = gather4(goals, c3);
+    const integer c0 = address(corners.c0);
+    const integer c1 = address(corners.c1);
+    const integer c2 = address(corners.c2);
+    const integer c3 = address(corners.c3);
+    const real4 g0 = gather4(vertices.goals, c0);
+    const real4 g1 = gather4(vertices.goals, c1);
+    const real4 g2 = gather4(vertices.goals, c2);
+    const real4 g3 = gather4(vertices.goals, c3);
     contact_pair p;
-    p.x0 = xyz(gather4(anchors, c0));
-    p.x1 = xyz(gather4(anchors, c1));
-    p.x2 = xyz(gather4(anchors, c2));
-    p.x3 = xyz(gather4(anchors, c3));
+    p.x0 = xyz(gather4(vertices.anchors, c0));
+    p.x1 = xyz(gather4(vertices.anchors, c1));
+    p.x2 = xyz(gather4(vertices.anchors, c2));
+    p.x3 = xyz(gather4(vertices.anchors, c3));
     p.way0 = subtract(xyz(g0), p.x0);
     p.way1 = subtract(xyz(g1), p.x1);
     p.way2 = subtract(xyz(g2), p.x2);
@@ -54,8 +66,8 @@ WEFT_INLINE contact_pair load_pair(WEFT_GLOBAL const float4* anchors,
     p.moves1 = g1.w > zero ? one : zero;
     p.moves2 = g2.w > zero ? one : zero;
     p.moves3 = g3.w > zero ? one : zero;
-    p.least = smaller(smaller(gather(stiffness, c0), gather(stiffness, c1)),
-                      smaller(gather(stiffness, c2), gather(stiffness, c3)));
+    p.least = smaller(smaller(gather(vertices.stiffness, c0), gather(vertices.stiffness, c1)),
+                      smaller(gather(vertices.stiffness, c2), gather(vertices.stiffness, c3)));
     return p;
 }
 
@@ -168,8 +180,24 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
 
 WEFT_INLINE whole half_of(whole w) { return w >> splat_whole(1); }
 
-/// A vertex' rows while they are filled.
+/// Where entries of rows are written; see fill_contacts.
 typedef struct {
+    WEFT_GLOBAL float4* planes;
+    WEFT_GLOBAL int* corner0;
+    WEFT_GLOBAL int* corner1;
+    WEFT_GLOBAL int* corner2;
+    WEFT_GLOBAL int* corner3;
+    WEFT_GLOBAL float4* normals;
+    WEFT_GLOBAL float4* weights;
+    WEFT_GLOBAL float4* measures;
+} contact_columns;
+
+/// The rows of one vertex while they are filled.
+typedef struct {
+    whole vertex;
+    whole plane_start, plane_room;
+    whole start, room;
+    real farthest;           ///< from where planes are left out [m]
     whole planes, contacts;  ///< how many there are
     real least;              ///< room before a plane [m]
     real nearest;            ///< distance of a contact [m]
@@ -181,60 +209,84 @@ WEFT_INLINE real out_of_reach(real radius, contact_settings settings) {
     return radius + splat(start > settings.slack ? start : settings.slack);
 }
 
-/// Adds what the pair of these four vertices is to one of them.
-/// farthest       from where planes are left out [m]
-/// is_on, pushes  for which items there is a pair at all, and one that may push
-/// others as in fill_contacts
-WEFT_INLINE contact_rows add_contact(
-    contact_rows row, real farthest, mask is_on, mask pushes, whole vertex, whole c0, whole c1,
-    whole c2, whole c3, int is_edges, contact_settings settings, WEFT_GLOBAL const float4* anchors,
-    WEFT_GLOBAL const float4* goals, WEFT_GLOBAL const float* stiffness, whole plane_start,
-    whole plane_room, WEFT_GLOBAL float4* planes, whole start, whole room, WEFT_GLOBAL int* corner0,
-    WEFT_GLOBAL int* corner1, WEFT_GLOBAL int* corner2, WEFT_GLOBAL int* corner3,
-    WEFT_GLOBAL float4* normals, WEFT_GLOBAL float4* weights, WEFT_GLOBAL float4* measures) {
-    const real zero = splat(0.0f);
+/// A contact as one of its vertices has it.
+typedef struct {
+    real side;    ///< 1 where the vertex is of A, else -1
+    real weight;  ///< its w
+    real room;    ///< before its plane [m]
+} contact_part;
+
+WEFT_INLINE contact_part part_of(contact_found f, whole vertex, contact_corners c, int is_edges) {
     const real one = splat(1.0f);
-    const contact_pair p =
-        load_pair(anchors, goals, stiffness, address(c0), address(c1), address(c2), address(c3));
-    const contact_found f = find_contact(p, is_edges, settings);
-    const mask is0 = vertex == c0;
-    const mask is1 = vertex == c1;
-    const mask is2 = vertex == c2;
+    const mask is0 = vertex == c.c0;
+    const mask is1 = vertex == c.c1;
+    const mask is2 = vertex == c.c2;
     const real side1 = is_edges ? one : -one;
-    const real side = is0 ? one : (is1 ? side1 : -one);
-    const real w = is0 ? f.weights.x : (is1 ? f.weights.y : (is2 ? f.weights.z : f.weights.w));
-    const real before = is0 ? f.room.x : (is1 ? f.room.y : (is2 ? f.room.z : f.room.w));
-    const real3 away = scale(f.normal, side);
+    contact_part part;
+    part.side = is0 ? one : (is1 ? side1 : -one);
+    part.weight = is0 ? f.weights.x : (is1 ? f.weights.y : (is2 ? f.weights.z : f.weights.w));
+    part.room = is0 ? f.room.x : (is1 ? f.room.y : (is2 ? f.room.z : f.room.w));
+    return part;
+}
 
-    // Where they touch there is no direction between them.
-    const mask is_apart = both(is_on, f.distance > splat(1e-12f));
-    const mask holds_back = both(is_apart, before < farthest);
-    const mask plane_fits = both(holds_back, row.planes < plane_room);
-    scatter4_where(plane_fits, planes, address(plane_start + row.planes * WEFT_ROW_STRIDE),
-                   with_w(away, before));
+WEFT_INLINE contact_rows add_plane(contact_rows row, mask is_apart, real3 away, real room,
+                                   contact_columns out) {
+    const mask holds_back = both(is_apart, room < row.farthest);
+    const mask fits = both(holds_back, row.planes < row.plane_room);
+    scatter4_where(fits, out.planes, address(row.plane_start + row.planes * WEFT_ROW_STRIDE),
+                   with_w(away, room));
     row.planes = holds_back ? row.planes + splat_whole(1) : row.planes;
-    row.least = is_apart ? smaller(row.least, before) : row.least;
-    row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
+    row.least = is_apart ? smaller(row.least, room) : row.least;
+    return row;
+}
 
-    const real own = side * w;
-    const real closest = smaller(f.distance, f.ahead);
-    const mask may_push =
-        both(both(is_apart, pushes),
-             both(closest<splat(WEFT_CONTACT_MARGIN * settings.range), own> zero));
-    const mask fits = both(may_push, row.contacts < room);
-    const integer entry = address(start + row.contacts * WEFT_ROW_STRIDE);
-    scatter_whole_where(fits, corner0, entry, c0);
-    scatter_whole_where(fits, corner1, entry, c1);
-    scatter_whole_where(fits, corner2, entry, c2);
-    scatter_whole_where(fits, corner3, entry, c3);
-    real4 signed_weights = {f.weights.x * side, f.weights.y * side, f.weights.z * side,
-                            f.weights.w * side};
-    real4 measure = {own, own * f.spread, f.stiffness, splat(settings.range)};
-    scatter4_where(fits, normals, entry, with_w(away, f.ahead));
-    scatter4_where(fits, weights, entry, signed_weights);
-    scatter4_where(fits, measures, entry, measure);
+WEFT_INLINE contact_rows add_entry(contact_rows row, mask may_push, contact_found f,
+                                   contact_corners c, contact_part part, float range,
+                                   contact_columns out) {
+    const mask fits = both(may_push, row.contacts < row.room);
+    const integer entry = address(row.start + row.contacts * WEFT_ROW_STRIDE);
+    scatter_whole_where(fits, out.corner0, entry, c.c0);
+    scatter_whole_where(fits, out.corner1, entry, c.c1);
+    scatter_whole_where(fits, out.corner2, entry, c.c2);
+    scatter_whole_where(fits, out.corner3, entry, c.c3);
+    const real side = part.side;
+    const real own = side * part.weight;
+    real4 weights = {f.weights.x * side, f.weights.y * side, f.weights.z * side,
+                     f.weights.w * side};
+    real4 measure = {own, own * f.spread, f.stiffness, splat(range)};
+    scatter4_where(fits, out.normals, entry, with_w(scale(f.normal, side), f.ahead));
+    scatter4_where(fits, out.weights, entry, weights);
+    scatter4_where(fits, out.measures, entry, measure);
     row.contacts = may_push ? row.contacts + splat_whole(1) : row.contacts;
     return row;
+}
+
+/// Adds what the pair of these four vertices is to one of them.
+/// is_on   for which items there is a pair at all
+/// pushes  and one that may push
+WEFT_INLINE contact_rows add_contact(contact_rows row, mask is_on, mask pushes, contact_corners c,
+                                     int is_edges, contact_settings settings,
+                                     contact_vertices vertices, contact_columns out) {
+    const contact_found f = find_contact(load_pair(vertices, c), is_edges, settings);
+    const contact_part part = part_of(f, row.vertex, c, is_edges);
+    // Where they touch there is no direction between them.
+    const mask is_apart = both(is_on, f.distance > splat(1e-12f));
+    row = add_plane(row, is_apart, scale(f.normal, part.side), part.room, out);
+    row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
+    const mask is_near = smaller(f.distance, f.ahead) < splat(WEFT_CONTACT_MARGIN * settings.range);
+    const mask bears = part.side * part.weight > splat(0.0f);
+    const mask may_push = both(both(is_apart, pushes), both(is_near, bears));
+    return add_entry(row, may_push, f, c, part, settings.range, out);
+}
+
+/// Of pairs with a triangle, in a column-major table; who uses it says c0.
+WEFT_INLINE contact_corners with_triangle(WEFT_GLOBAL const int* triangles, whole t, int count) {
+    contact_corners corners;
+    corners.c0 = t;
+    corners.c1 = gather_whole(triangles, address(t));
+    corners.c2 = gather_whole(triangles, address(t + splat_whole(count)));
+    corners.c3 = gather_whole(triangles, address(t + splat_whole(2 * count)));
+    return corners;
 }
 
 /// Which patches have vertices that may have pairs, or had some in the substep before: rows of all
@@ -304,25 +356,30 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
     if (!any_in_range(busy, patches[i.first], patches[i.first + i.count - 1])) return;
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
-    contact_settings settings;
-    settings.range = range;
-    settings.slack = slack;
-    settings.stiffness = factor;
+    const contact_settings settings = {range, slack, factor};
+    const contact_vertices vertices = {anchors, goals, stiffness};
+    const contact_columns out = {planes,  corner0, corner1, corner2,
+                                 corner3, normals, weights, measures};
     const whole vertex = load_whole(apexes, i);
     const integer own = address(vertex);
     const integer second = address(vertex + splat_whole(vertex_count));
     const whole may_have = gather_whole(busy, address(load_whole(patches, i)));
     const mask has_pairs = may_have - (may_have >> one) * splat_whole(2) > none;
-    const whole plane_start = gather_whole(plane_rows, own);
-    const whole plane_room = gather_whole(plane_rows, second);
-    const whole start = gather_whole(rows, own);
-    const whole room = gather_whole(rows, second);
-    const real farthest = out_of_reach(gather4(anchors, own).w, settings);
     const real far = splat(WEFT_NO_PLANE);
     const real free = gather4(goals, own).w;
     const mask moves = both(has_pairs, free > splat(0.0f));
     const mask is_led = both(has_pairs, free <= splat(0.0f));
-    contact_rows row = {none, none, is_led ? splat(0.0f) : far, far};
+    contact_rows row;
+    row.vertex = vertex;
+    row.plane_start = gather_whole(plane_rows, own);
+    row.plane_room = gather_whole(plane_rows, second);
+    row.start = gather_whole(rows, own);
+    row.room = gather_whole(rows, second);
+    row.farthest = out_of_reach(gather4(anchors, own).w, settings);
+    row.planes = none;
+    row.contacts = none;
+    row.least = is_led ? splat(0.0f) : far;
+    row.nearest = far;
 
     const whole own_pairs = load_whole(vt_counts, i);
     const whole own_count = moves ? own_pairs : none;
@@ -335,12 +392,9 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
         const whole code = is_on ? gather_whole(vt_others, entry) : none;
         const whole t = half_of(code);
         const mask pushes = code > t + t;
-        const whole c1 = gather_whole(triangles, address(t));
-        const whole c2 = gather_whole(triangles, address(t + splat_whole(triangle_count)));
-        const whole c3 = gather_whole(triangles, address(t + splat_whole(2 * triangle_count)));
-        row = add_contact(row, farthest, is_on, pushes, vertex, vertex, c1, c2, c3, 0, settings,
-                          anchors, goals, stiffness, plane_start, plane_room, planes, start, room,
-                          corner0, corner1, corner2, corner3, normals, weights, measures);
+        contact_corners corners = with_triangle(triangles, t, triangle_count);
+        corners.c0 = vertex;
+        row = add_contact(row, is_on, pushes, corners, 0, settings, vertices, out);
     }
 
     const whole first_triangle = load_whole(triangle_begin, i);
@@ -356,9 +410,7 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
         const int longest = largest_whole(count);
         if (longest > 0) {
             const whole t_start = gather_whole(tv_rows, address(t));
-            const whole c1 = gather_whole(triangles, address(t));
-            const whole c2 = gather_whole(triangles, address(t + splat_whole(triangle_count)));
-            const whole c3 = gather_whole(triangles, address(t + splat_whole(2 * triangle_count)));
+            contact_corners corners = with_triangle(triangles, t, triangle_count);
             for (int k = 0; k < longest; ++k) {
                 const mask is_on = splat_whole(k) < count;
                 const integer entry =
@@ -366,11 +418,8 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
                 const whole code = is_on ? gather_whole(tv_others, entry) : none;
                 const whole other = half_of(code);
                 const mask pushes = code > other + other;
-                const whole c0 = gather_whole(apexes, address(other));
-                row = add_contact(row, farthest, is_on, pushes, vertex, c0, c1, c2, c3, 0, settings,
-                                  anchors, goals, stiffness, plane_start, plane_room, planes, start,
-                                  room, corner0, corner1, corner2, corner3, normals, weights,
-                                  measures);
+                corners.c0 = gather_whole(apexes, address(other));
+                row = add_contact(row, is_on, pushes, corners, 0, settings, vertices, out);
             }
         }
     }
@@ -397,14 +446,12 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
                 const mask pushes = code > other + other;
                 const whole low = smaller_whole(e, other);
                 const whole high = larger_whole(e, other);
-                const whole c0 = gather_whole(edges, address(low));
-                const whole c1 = gather_whole(edges, address(low + splat_whole(edge_count)));
-                const whole c2 = gather_whole(edges, address(high));
-                const whole c3 = gather_whole(edges, address(high + splat_whole(edge_count)));
-                row = add_contact(row, farthest, is_on, pushes, vertex, c0, c1, c2, c3, 1, settings,
-                                  anchors, goals, stiffness, plane_start, plane_room, planes, start,
-                                  room, corner0, corner1, corner2, corner3, normals, weights,
-                                  measures);
+                contact_corners corners;
+                corners.c0 = gather_whole(edges, address(low));
+                corners.c1 = gather_whole(edges, address(low + splat_whole(edge_count)));
+                corners.c2 = gather_whole(edges, address(high));
+                corners.c3 = gather_whole(edges, address(high + splat_whole(edge_count)));
+                row = add_contact(row, is_on, pushes, corners, 1, settings, vertices, out);
             }
         }
     }
@@ -414,8 +461,8 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
     const whole wanted_planes = is_first ? none : gather_whole(plane_needs, own);
     const whole wanted = is_first ? none : gather_whole(needs, own);
     const real was_nearest = is_first ? far : gather(nearest, own);
-    scatter_whole_where(all, plane_counts, own, smaller_whole(row.planes, plane_room));
-    scatter_whole_where(all, counts, own, smaller_whole(row.contacts, room));
+    scatter_whole_where(all, plane_counts, own, smaller_whole(row.planes, row.plane_room));
+    scatter_whole_where(all, counts, own, smaller_whole(row.contacts, row.room));
     scatter_whole_where(all, plane_needs, own, larger_whole(row.planes, wanted_planes));
     scatter_whole_where(all, needs, own, larger_whole(row.contacts, wanted));
     scatter_where(all, least, own, row.least);
