@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 
+#include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 #include "simulation/diagnostics.h"
 #include "simulation/families/builder.h"
@@ -85,14 +86,14 @@ std::vector<Inspection::Dataset> find_datasets(const Model& model) {
             {"run/energies", {}},
             {"run/warnings", {}},
             {"run/devices", {}},
-            {"frames", columns_of(trace::frame_row_type(1))},
+            {"frames", columns_of(trace::FrameRows::of_frames(1).type())},
             {"plan", columns_of(trace::plan_row_type())},
             {"divisions", columns_of(trace::division_row_type())},
             {"dependencies", columns_of(trace::dependency_row_type())},
             {"executions", columns_of(trace::execution_row_type())},
             {"costs", columns_of(trace::cost_row_type())},
             {"warnings", columns_of(trace::warning_row_type())},
-            {"energies", columns_of(trace::energy_row_type(energy_names(model)))}};
+            {"energies", columns_of(trace::FrameRows::of_energies(energy_names(model)).type())}};
 }
 
 // ---- what is not there ----

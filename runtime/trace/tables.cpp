@@ -6,21 +6,6 @@ namespace weft::trace {
 
 namespace {
 
-template <class Record>
-hid_t native_type();
-template <>
-hid_t native_type<std::uint32_t>() {
-    return H5T_NATIVE_UINT32;
-}
-template <>
-hid_t native_type<std::uint64_t>() {
-    return H5T_NATIVE_UINT64;
-}
-template <>
-hid_t native_type<double>() {
-    return H5T_NATIVE_DOUBLE;
-}
-
 /// Column for a member of a record that stands `base` bytes into the row.
 template <class Record, class Member>
 RowType::Column column(const char* name, Member Record::*member, const char* unit = "",
@@ -49,28 +34,6 @@ private:
     std::vector<RowType::Column> columns_;
 };
 
-hdf5::Handle compound_type(std::size_t size, const std::vector<RowType::Column>& columns) {
-    constexpr const char* kWhat = "create a table's row type";
-    hdf5::Handle type(H5Tcreate(H5T_COMPOUND, size), H5Tclose, kWhat);
-    for (const RowType::Column& column : columns) {
-        hdf5::check(H5Tinsert(type.id(), column.name.c_str(), column.offset, column.type), kWhat);
-    }
-    return type;
-}
-
-std::size_t align_to_double(std::size_t size) {
-    return (size + sizeof(double) - 1) / sizeof(double) * sizeof(double);
-}
-
-/// Text of so many bytes, filled up with zeros.
-hdf5::Handle short_text_type(std::size_t size) {
-    constexpr const char* kWhat = "create a table's row type";
-    hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose, kWhat);
-    hdf5::check(H5Tset_size(type.id(), size), kWhat);
-    hdf5::check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), kWhat);
-    return type;
-}
-
 /// A device as HDF5 stores it: text by pointer.
 struct DeviceRow {
     const char* name;
@@ -94,69 +57,6 @@ hdf5::Handle device_type(hid_t text, hid_t boolean) {
 }
 
 }  // namespace
-
-RowType::RowType(std::size_t struct_size, std::vector<Column> columns,
-                 const std::vector<std::string>& doubles, const char* unit)
-    : size_(doubles.empty() ? struct_size : align_to_double(struct_size)) {
-    for (const std::string& name : doubles) {
-        columns.push_back({name, H5T_NATIVE_DOUBLE, size_, unit});
-        size_ += sizeof(double);
-    }
-    for (const Column& column : columns) units_.emplace_back(column.unit);
-    memory_ = compound_type(size_, columns);
-    file_ = hdf5::Handle(H5Tcopy(memory_.id()), H5Tclose, "create a table's row type");
-    hdf5::check(H5Tpack(file_.id()), "create a table's row type");
-    owner_only_ =
-        compound_type(sizeof(std::uint32_t), {{columns.front().name, H5T_NATIVE_UINT32, 0}});
-}
-
-RowType frame_row_type(std::size_t device_count) {
-    std::vector<std::string> busy;
-    for (std::size_t i = 0; i < device_count; ++i) busy.push_back("busy_" + std::to_string(i));
-    const hdf5::Handle planner = short_text_type(sizeof(FrameColumns::planner));
-    const hdf5::Handle hash = short_text_type(sizeof(FrameColumns::state_hash));
-    return {sizeof(FrameColumns),
-            {column("frame", &FrameColumns::frame),
-             column("sim_time", &FrameColumns::sim_time, "s"),
-             column("start", &FrameColumns::start, "s"),
-             column("end", &FrameColumns::end, "s"),
-             column("planned_makespan", &FrameColumns::planned_makespan, "s"),
-             column("measured_makespan", &FrameColumns::measured_makespan, "s"),
-             column("lower_bound", &FrameColumns::lower_bound, "s"),
-             column("plan_time", &FrameColumns::plan_time, "s"),
-             column("place_time", &FrameColumns::place_time, "s"),
-             column("execute_time", &FrameColumns::execute_time, "s"),
-             column("check_time", &FrameColumns::check_time, "s"),
-             column("learn_time", &FrameColumns::learn_time, "s"),
-             column("measure_time", &FrameColumns::measure_time, "s"),
-             column("output_time", &FrameColumns::output_time, "s"),
-             column("pace", &FrameColumns::pace),
-             column("strain_rms", &FrameColumns::strain_rms),
-             column("strain_max", &FrameColumns::strain_max),
-             column("work", &FrameColumns::work, "J"),
-             column("dissipated", &FrameColumns::dissipated, "J"),
-             column("relative_error_estimate", &FrameColumns::relative_error),
-             column("transferred_bytes", &FrameColumns::transferred_bytes, "B"),
-             column("graph", &FrameColumns::graph),
-             column("substeps", &FrameColumns::substeps),
-             column("iterations", &FrameColumns::iterations),
-
-             {"planner", planner.id(), offsetof(FrameColumns, planner)},
-             {"state_hash", hash.id(), offsetof(FrameColumns, state_hash)}},
-            busy,
-            "s"};
-}
-
-RowType energy_row_type(const std::vector<std::string>& energies) {
-    std::vector<std::string> others = energies;
-    others.emplace_back("total");
-    return {
-        sizeof(EnergyColumns),
-        {column("frame", &EnergyColumns::frame), column("kinetic", &EnergyColumns::kinetic, "J"),
-         column("gravity", &EnergyColumns::gravity, "J")},
-        others,
-        "J"};
-}
 
 RowType plan_row_type() {
     return RowColumns<PlanRecord>()

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/error.h"
+#include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 
 namespace weft {
@@ -99,24 +100,10 @@ private:
     mutable std::optional<std::vector<std::uint32_t>> owners_;
 };
 
-template <class Columns>
-Columns fixed_columns(const std::byte* row) {
-    Columns columns;
-    std::memcpy(&columns, row, sizeof(columns));
-    return columns;
-}
-
 /// Up to the first zero byte.
 template <std::size_t Size>
 std::string text_of(const std::array<char, Size>& bytes) {
     return {bytes.begin(), std::find(bytes.begin(), bytes.end(), '\0')};
-}
-
-std::vector<double> last_doubles(const std::byte* row, std::size_t row_size, std::size_t count) {
-    std::vector<double> values(count);
-    const auto bytes = std::as_writable_bytes(std::span(values));
-    std::copy_n(row + row_size - bytes.size(), bytes.size(), bytes.begin());
-    return values;
 }
 
 TextPairs read_pairs(hid_t parent, const std::string& name) {
@@ -131,7 +118,9 @@ TextPairs read_pairs(hid_t parent, const std::string& name) {
 
 struct Tables {
     Tables(hid_t file, const RunDescription& run)
-        : plan(file, "plan", trace::plan_row_type()),
+        : energy_rows(trace::FrameRows::of_energies(run.energies)),
+          frame_rows(trace::FrameRows::of_frames(run.devices.size())),
+          plan(file, "plan", trace::plan_row_type()),
           divisions(file, "divisions", trace::division_row_type()),
           dependencies(file, "dependencies", trace::dependency_row_type()),
           executions(file, "executions", trace::execution_row_type()),
@@ -140,9 +129,10 @@ struct Tables {
           transfers(file, "transfers", trace::transfer_row_type()),
           contacts(file, "contacts", trace::contact_row_type()),
           warnings(file, "warnings", trace::warning_row_type()),
-          energies(file, "energies", trace::energy_row_type(run.energies)),
-          frames(file, "frames", trace::frame_row_type(run.devices.size())) {}
+          energies(file, "energies", energy_rows.type()),
+          frames(file, "frames", frame_rows.type()) {}
 
+    trace::FrameRows energy_rows, frame_rows;
     TableReader plan;
     TableReader divisions;
     TableReader dependencies;
@@ -263,36 +253,11 @@ private:
         const std::vector<std::byte> bytes = table.read({0, table.rows()});
         frames_.resize(table.rows());
         for (std::size_t i = 0; i < frames_.size(); ++i) {
-            const std::byte* row = bytes.data() + i * table.row_size();
-            const auto columns = fixed_columns<trace::FrameColumns>(row);
             FrameRecord& frame = frames_[i];
-            frame.frame = columns.frame;
-            frame.sim_time = columns.sim_time;
-            frame.start = columns.start;
-            frame.end = columns.end;
-            frame.planned_makespan = columns.planned_makespan;
-            frame.measured_makespan = columns.measured_makespan;
-            frame.lower_bound = columns.lower_bound;
-            frame.plan_time = columns.plan_time;
-            frame.place_time = columns.place_time;
-            frame.execute_time = columns.execute_time;
-            frame.check_time = columns.check_time;
-            frame.learn_time = columns.learn_time;
-            frame.measure_time = columns.measure_time;
-            frame.output_time = columns.output_time;
-            frame.pace = columns.pace > 0.0 ? columns.pace : 1.0;
-            frame.strain_rms = columns.strain_rms;
-            frame.strain_max = columns.strain_max;
-            frame.work = columns.work;
-            frame.dissipated = columns.dissipated;
-            frame.substeps = columns.substeps;
-            frame.iterations = columns.iterations;
-            frame.relative_error = columns.relative_error;
-            frame.transferred_bytes = columns.transferred_bytes;
-            frame.planner = text_of(columns.planner);
-            frame.state_hash = text_of(columns.state_hash);
-            graph_numbers_.push_back(columns.graph);
-            frame.busy = last_doubles(row, table.row_size(), run_.devices.size());
+            frame.busy = tables_->frame_rows.unpack(bytes.data() + i * table.row_size(), frame);
+            if (!(frame.pace > 0.0)) frame.pace = 1.0;  // not known
+            graph_numbers_.push_back(frame.graph ? frame.graph->graph : trace::kNoGraph);
+            frame.graph.reset();
         }
     }
 
@@ -310,12 +275,12 @@ private:
         const std::size_t count = std::min(table.rows(), frames_.size());
         const std::vector<std::byte> bytes = table.read({0, count});
         for (std::size_t i = 0; i < count; ++i) {
+            FrameRecord& frame = frames_[i];
+            const std::uint32_t number = frame.frame;
             const std::byte* row = bytes.data() + i * table.row_size();
-            const auto columns = fixed_columns<trace::EnergyColumns>(row);
-            frames_[i].kinetic_energy = columns.kinetic;
-            frames_[i].gravity_energy = columns.gravity;
-            frames_[i].energies = last_doubles(row, table.row_size(), run_.energies.size() + 1);
-            frames_[i].energies.pop_back();  // the total, which follows from the others
+            frame.energies = tables_->energy_rows.unpack(row, frame);
+            frame.energies.pop_back();  // the total, which follows from the others
+            frame.frame = number;       // the table `frames` says it, whatever is beside it
         }
     }
 

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <ctime>
 #include <numeric>
 #include <optional>
 #include <set>
-#include <span>
 #include <stdexcept>
 
 #include "runtime/error.h"
 #include "runtime/io/background_writer.h"
+#include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 
 namespace weft {
@@ -43,12 +42,8 @@ public:
         data_.flush();
     }
 
-    /// One row: the fixed columns, then the doubles that follow them.
-    template <class Columns>
-    void append(const Columns& columns, const std::vector<double>& doubles) {
-        std::vector<std::byte> row(type_.size());
-        std::memcpy(row.data(), &columns, sizeof(columns));
-        std::ranges::copy_backward(std::as_bytes(std::span(doubles)), row.end());
+    /// One row, as FrameRows packs it.
+    void append(const std::vector<std::byte>& row) {
         data_.append(type_.memory(), row.data(), 1);
         data_.flush();
     }
@@ -73,14 +68,16 @@ constexpr hsize_t kFewRows = 64;
 
 struct Tables {
     Tables(hid_t file, const RunDescription& run)
-        : plan(file, "plan", trace::plan_row_type(), kManyRows, kDeflate),
+        : energy_rows(trace::FrameRows::of_energies(run.energies)),
+          frame_rows(trace::FrameRows::of_frames(run.devices.size())),
+          plan(file, "plan", trace::plan_row_type(), kManyRows, kDeflate),
           divisions(file, "divisions", trace::division_row_type(), kFewRows, 0),
           dependencies(file, "dependencies", trace::dependency_row_type(), kManyRows, kDeflate),
           executions(file, "executions", trace::execution_row_type(), kManyRows, kDeflate),
           costs(file, "costs", trace::cost_row_type(), kFewRows, 0),
           warnings(file, "warnings", trace::warning_row_type(), kFewRows, 0),
-          energies(file, "energies", trace::energy_row_type(run.energies), kFewRows, 0),
-          frames(file, "frames", trace::frame_row_type(run.devices.size()), kFewRows, 0) {
+          energies(file, "energies", energy_rows.type(), kFewRows, 0),
+          frames(file, "frames", frame_rows.type(), kFewRows, 0) {
         if (run.devices.size() > 1) {
             links.emplace(file, "links", trace::link_row_type(), kFewRows, 0);
         }
@@ -103,7 +100,7 @@ struct Tables {
         if (contacts) contacts->append(record.frame, record.contacts);
         append_warnings(record);
         append_energies(record);
-        append_frame(record);
+        frames.append(frame_rows.pack(record, record.busy));
     }
 
     /// Once, with the first frame that uses it.
@@ -123,45 +120,11 @@ struct Tables {
         warnings.append(record.frame, rows);
     }
 
-    void append_frame(const FrameRecord& record) {
-        trace::FrameColumns row{record.frame,
-                                record.sim_time,
-                                record.start,
-                                record.end,
-                                record.planned_makespan,
-                                record.measured_makespan,
-                                record.lower_bound,
-                                record.plan_time,
-                                record.place_time,
-                                record.execute_time,
-                                record.check_time,
-                                record.learn_time,
-                                record.measure_time,
-                                record.output_time,
-                                record.pace,
-                                record.strain_rms,
-                                record.strain_max,
-                                record.work,
-                                record.dissipated,
-                                record.relative_error,
-                                record.transferred_bytes,
-                                record.graph ? record.graph->graph : trace::kNoGraph,
-                                record.substeps,
-                                record.iterations,
-                                {},
-                                {}};
-        fill(row.planner, record.planner);
-        fill(row.state_hash, record.state_hash);
-        frames.append(row, record.busy);
-    }
-
     void append_energies(const FrameRecord& record) {
         std::vector<double> values = record.energies;
         values.push_back(std::accumulate(values.begin(), values.end(),
                                          record.kinetic_energy + record.gravity_energy));
-        energies.append(
-            trace::EnergyColumns{record.frame, record.kinetic_energy, record.gravity_energy},
-            values);
+        energies.append(energy_rows.pack(record, values));
     }
 
     void close() {
@@ -182,6 +145,7 @@ struct Tables {
         if (contacts) action(*contacts);
     }
 
+    trace::FrameRows energy_rows, frame_rows;
     Table plan;
     Table divisions;
     Table dependencies;
