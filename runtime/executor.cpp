@@ -103,9 +103,9 @@ private:
     }
     int device_of(int task) const { return static_cast<int>(placement(task).processor); }
     /// The memory that a device works in.
-    Memory memory_of(int device) const {
+    MemoryId memory_of(int device) const {
         const auto model = executor_.devices_[static_cast<std::size_t>(device)]->info().memory;
-        return model == MemoryModel::kHost ? Memory::host() : Memory::of_device(device);
+        return model == MemoryModel::kHost ? MemoryId::host() : MemoryId::of_device(device);
     }
     DeviceStream& stream(int device) {
         at_ = device;
@@ -153,7 +153,7 @@ private:
 
     /// Copies what the device does not have yet, through the host where it must.
     void bring(const Access& access, int device, int instance, int task) {
-        const Memory memory = memory_of(device);
+        const MemoryId memory = memory_of(device);
         for (const auto& missing : executor_.memory_.missing(access, memory)) {
             const ElementSpan span = elements_of(access, missing.interval);
             if (span.begin == span.end) continue;  // strips without an element
@@ -163,7 +163,8 @@ private:
             Copy copy{{instance, task, from, device, bytes}, {}};
             Completion* arrival = missing.made_by;
             if (!missing.source.is_host()) {
-                arrival = move(access, missing.interval, span, from, Memory::host(), arrival, copy);
+                arrival =
+                    move(access, missing.interval, span, from, MemoryId::host(), arrival, copy);
             }
             if (!memory.is_host()) {
                 arrival = move(access, missing.interval, span, device, memory, arrival, copy);
@@ -174,7 +175,7 @@ private:
 
     /// One hop between the host's memory and that of `owner`, to `memory`.
     Completion* move(const Access& access, Interval interval, const ElementSpan& span, int owner,
-                     Memory memory, Completion* after, Copy& copy) {
+                     MemoryId memory, Completion* after, Copy& copy) {
         WEFT_ASSERT(!memory_of(owner).is_host());
         const std::vector<Completion*> waits(after == nullptr ? 0 : 1, after);
         DeviceStream& s = stream(owner);
@@ -365,7 +366,7 @@ void Executor::fetch(BufferStorage& buffer) {
         if (span.begin == span.end) continue;
         const auto source = static_cast<std::size_t>(missing.source.device());
         on(source, [&] { streams_[source]->to_host(buffer, span, {})->wait(); });
-        memory_.arrived(access, missing.interval, Memory::host(), nullptr);
+        memory_.arrived(access, missing.interval, MemoryId::host(), nullptr);
     }
 }
 

@@ -6,7 +6,7 @@
 
 namespace weft {
 
-bool MemoryMap::is_held(const Part& part, Memory memory) {
+bool MemoryMap::is_held(const Part& part, MemoryId memory) {
     return std::ranges::find(part.holders, memory, &Holder::memory) != part.holders.end();
 }
 
@@ -36,7 +36,7 @@ void MemoryMap::cut(std::vector<Part>& parts, Interval interval) {
     }
 }
 
-std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, Memory memory) const {
+std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, MemoryId memory) const {
     std::vector<Missing> result;
     const auto entry = entries_.find(key_of(access));
     if (entry == entries_.end()) return result;
@@ -55,7 +55,7 @@ std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, Memory 
     return result;
 }
 
-std::vector<Completion*> MemoryMap::arrivals(const Access& access, Memory memory) const {
+std::vector<Completion*> MemoryMap::arrivals(const Access& access, MemoryId memory) const {
     std::vector<Completion*> result;
     const auto entry = entries_.find(key_of(access));
     if (entry == entries_.end()) return result;
@@ -69,7 +69,7 @@ std::vector<Completion*> MemoryMap::arrivals(const Access& access, Memory memory
     return result;
 }
 
-void MemoryMap::arrived(const Access& access, Interval interval, Memory memory,
+void MemoryMap::arrived(const Access& access, Interval interval, MemoryId memory,
                         Completion* arrival) {
     std::vector<Part>& parts = entries_[key_of(access)].parts;
     cut(parts, interval);
@@ -81,7 +81,7 @@ void MemoryMap::arrived(const Access& access, Interval interval, Memory memory,
     }
 }
 
-void MemoryMap::written(const Access& access, Memory memory, Completion* task) {
+void MemoryMap::written(const Access& access, MemoryId memory, Completion* task) {
     Entry& entry = entries_[key_of(access)];
     entry.segments = access.segments;
     const Interval interval{access.begin, access.end};
@@ -115,7 +115,7 @@ std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
         if (key.first != &buffer) continue;
         for (const Part& part : entry.parts) {
             const Access access{key.first, entry.segments, part.interval.begin, part.interval.end};
-            for (const Missing& missing : this->missing(access, Memory::host()))
+            for (const Missing& missing : this->missing(access, MemoryId::host()))
                 result.emplace_back(access, missing);
         }
     }

@@ -17,20 +17,20 @@ struct Interval {
 
 /// A memory that devices work in: the host's, or a device's own. A type, since these numbers meet
 /// those of devices.
-class Memory {
+class MemoryId {
 public:
-    static constexpr Memory host() { return Memory(0); }
+    static constexpr MemoryId host() { return MemoryId(0); }
     /// That of a device that does not work in the host's; device: its number in the executor
-    static constexpr Memory of_device(int device) { return Memory(device + 1); }
+    static constexpr MemoryId of_device(int device) { return MemoryId(device + 1); }
 
     constexpr bool is_host() const { return number_ == 0; }
     /// Not of the host's.
     constexpr int device() const { return number_ - 1; }
     /// The host's is the least.
-    friend constexpr auto operator<=>(const Memory&, const Memory&) = default;
+    friend constexpr auto operator<=>(const MemoryId&, const MemoryId&) = default;
 
 private:
-    explicit constexpr Memory(int number) : number_(number) {}
+    explicit constexpr MemoryId(int number) : number_(number) {}
     int number_;
 };
 
@@ -41,18 +41,18 @@ public:
     /// A part that has to be copied, and the work that made its data.
     struct Missing {
         Interval interval;
-        Memory source = Memory::host();
+        MemoryId source = MemoryId::host();
         Completion* made_by = nullptr;  ///< null: long done
     };
 
     /// What of an access is not current in `memory`. Both reads and updates read.
-    std::vector<Missing> missing(const Access& access, Memory memory) const;
+    std::vector<Missing> missing(const Access& access, MemoryId memory) const;
     /// Copies into `memory`, perhaps still under way, that brought parts of the access.
-    std::vector<Completion*> arrivals(const Access& access, Memory memory) const;
+    std::vector<Completion*> arrivals(const Access& access, MemoryId memory) const;
     /// The data of the missing part are in `memory` as well once `arrival` is done.
-    void arrived(const Access& access, Interval interval, Memory memory, Completion* arrival);
+    void arrived(const Access& access, Interval interval, MemoryId memory, Completion* arrival);
     /// A task on `memory` writes this: it is current there alone.
-    void written(const Access& access, Memory memory, Completion* task);
+    void written(const Access& access, MemoryId memory, Completion* task);
     /// The buffer is current everywhere again.
     void forget(const BufferStorage& buffer);
     /// Forgets completions: everything that was under way is done.
@@ -63,7 +63,7 @@ public:
 
 private:
     struct Holder {
-        Memory memory = Memory::host();
+        MemoryId memory = MemoryId::host();
         Completion* since = nullptr;  ///< null: long ago
         bool copied = false;          ///< brought there, not made there
     };
@@ -77,7 +77,7 @@ private:
         std::vector<Part> parts;  ///< disjoint, ascending
     };
 
-    static bool is_held(const Part& part, Memory memory);
+    static bool is_held(const Part& part, MemoryId memory);
     static bool are_disjoint_and_ascending(const std::vector<Part>& parts);
     static Key key_of(const Access& access);
     /// Cuts parts at the ends of the interval, so that it is made of whole parts.

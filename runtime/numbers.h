@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-// Types for what would be plain ints beside each other: see also Memory (memory_map.h) and
+// Types for what would be plain ints beside each other: see also MemoryId (memory_map.h) and
 // ActiveDevice (executor.h).
 namespace weft {
 

@@ -98,7 +98,7 @@ OpenClStream::~OpenClStream() {
     keep(std::move(kept));
 }
 
-OpenClStream::Memory OpenClStream::bring(const BufferStorage& buffer) {
+OpenClStream::DeviceBuffer OpenClStream::bring(const BufferStorage& buffer) {
     return {buffer.memory(), make_memory(target_, buffer), buffer.generation()};
 }
 

@@ -64,14 +64,14 @@ private:
         int task = 0;
     };
     /// A buffer as the device has it.
-    struct Memory {
+    struct DeviceBuffer {
         std::shared_ptr<const void> home;  ///< which the driver may use in place: goes last
         cl::Buffer buffer;
         int generation = 0;  ///< of the host's
     };
     enum class Direction { kToDevice, kToHost };
 
-    Memory bring(const BufferStorage& buffer);
+    DeviceBuffer bring(const BufferStorage& buffer);
     const cl::Buffer& memory_of(const BufferStorage& buffer);
     void set_arguments(BoundBody& bound);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
@@ -97,7 +97,7 @@ private:
     OpenClTarget target_;
     cl::CommandQueue queue_;
     cl::CommandQueue copies_;
-    std::map<const BufferStorage*, Memory> memory_;
+    std::map<const BufferStorage*, DeviceBuffer> memory_;
     std::vector<BoundBody> bodies_;
     std::deque<OpenClCompletion> completions_;
     std::deque<Running> running_;

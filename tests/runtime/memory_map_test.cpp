@@ -14,8 +14,8 @@ constexpr int kUnits = 24;
 constexpr int kBuffers = 2;
 
 /// 0: the host's.
-Memory memory_number(int number) {
-    return number == 0 ? Memory::host() : Memory::of_device(number - 1);
+MemoryId memory_number(int number) {
+    return number == 0 ? MemoryId::host() : MemoryId::of_device(number - 1);
 }
 
 class Done final : public Completion {
@@ -31,16 +31,16 @@ struct Unit {
         Completion* since = nullptr;
         bool copied = false;
     };
-    std::map<Memory, Holding> holders;
+    std::map<MemoryId, Holding> holders;
 };
 
 /// Unit by unit, what MemoryMap keeps in intervals.
 class Reference {
 public:
-    void written(int buffer, int begin, int end, Memory memory, Completion* task) {
+    void written(int buffer, int begin, int end, MemoryId memory, Completion* task) {
         for (int u = begin; u < end; ++u) at(buffer, u) = {true, {{memory, {task, false}}}};
     }
-    void arrived(int buffer, int begin, int end, Memory memory, Completion* arrival) {
+    void arrived(int buffer, int begin, int end, MemoryId memory, Completion* arrival) {
         for (int u = begin; u < end; ++u) at(buffer, u).holders[memory] = {arrival, true};
     }
     void forget(int buffer) { std::fill_n(units_[buffer], kUnits, Unit{}); }
@@ -51,7 +51,7 @@ public:
             }
         }
     }
-    bool is_missing(int buffer, int u, Memory memory) {
+    bool is_missing(int buffer, int u, MemoryId memory) {
         const Unit& unit = at(buffer, u);
         return unit.noted && !unit.holders.contains(memory);
     }
@@ -77,7 +77,7 @@ private:
         const int begin = pick(kUnits - 1);
         const int end = begin + 1 + pick(std::min(8, kUnits - begin));
         const int number = pick(kMemories);
-        const Memory memory = memory_number(number);
+        const MemoryId memory = memory_number(number);
         const Access access{&buffers_[buffer], nullptr, begin, end, true};
         switch (pick(10)) {
             case 0:
@@ -104,7 +104,7 @@ private:
     }
 
     /// As an executor does: every missing part is copied.
-    void bring(const Access& access, int buffer, Memory memory) {
+    void bring(const Access& access, int buffer, MemoryId memory) {
         for (const auto& missing : map_.missing(access, memory)) {
             map_.arrived(access, missing.interval, memory, &arrival_);
             reference_.arrived(buffer, missing.interval.begin, missing.interval.end, memory,
@@ -113,7 +113,7 @@ private:
         ASSERT_TRUE(map_.missing(access, memory).empty());
     }
 
-    void check(const Access& access, int buffer, Memory memory) {
+    void check(const Access& access, int buffer, MemoryId memory) {
         bool found[kUnits] = {};
         for (const auto& missing : map_.missing(access, memory)) {
             for (int u = missing.interval.begin; u < missing.interval.end; ++u) {
@@ -122,7 +122,7 @@ private:
                 const auto& holders = reference_.at(buffer, u).holders;
                 const auto source = holders.find(missing.source);
                 ASSERT_NE(source, holders.end()) << "unit " << u << " is not current at its source";
-                EXPECT_TRUE(missing.source.is_host() || !holders.contains(Memory::host()))
+                EXPECT_TRUE(missing.source.is_host() || !holders.contains(MemoryId::host()))
                     << "the host is nearer";
                 EXPECT_EQ(missing.made_by, source->second.since);
             }
@@ -145,7 +145,7 @@ private:
             for (int u = missing.interval.begin; u < missing.interval.end; ++u) found[u] = true;
         }
         for (int u = 0; u < kUnits; ++u) {
-            EXPECT_EQ(found[u], reference_.is_missing(buffer, u, Memory::host())) << "unit " << u;
+            EXPECT_EQ(found[u], reference_.is_missing(buffer, u, MemoryId::host())) << "unit " << u;
         }
     }
 

@@ -92,9 +92,9 @@ struct Limits {
     double run, estimate;  ///< [B] per vertex
 };
 
-class Memory : public testing::TestWithParam<Limits> {};
+class MemoryUse : public testing::TestWithParam<Limits> {};
 
-TEST_P(Memory, PerVertexIsBounded) {
+TEST_P(MemoryUse, PerVertexIsBounded) {
     const double before = allocated();
     const Buffer<int> known("known", 1 << 14);
     if (allocated() - before < static_cast<double>(known.bytes())) {
@@ -108,7 +108,7 @@ TEST_P(Memory, PerVertexIsBounded) {
     EXPECT_GE(held.estimate, 0.5 * GetParam().estimate);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Memory,
+INSTANTIATE_TEST_SUITE_P(Methods, MemoryUse,
                          testing::Values(Limits{"xpbd", 335.0, 1140.0},
                                          Limits{"vbd", 590.0, 1140.0}),
                          [](const auto& limits) { return std::string(limits.param.method); });
