@@ -9,7 +9,7 @@
 #include "apps/weft/commands/commands.h"
 #include "runtime/io/json_text.h"
 #include "runtime/trace/trace_reader.h"
-#include "simulation/output/summary.h"
+#include "simulation/output/summary_builder.h"
 
 namespace weft {
 

@@ -8,7 +8,7 @@
 #include "simulation/output/checkpoint.h"
 #include "simulation/output/geometry_reader.h"
 #include "simulation/output/geometry_writer.h"
-#include "simulation/output/summary.h"
+#include "simulation/output/summary_builder.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/output/summary.h"
+#include "simulation/output/summary_builder.h"
 
 #include <gtest/gtest.h>
 
