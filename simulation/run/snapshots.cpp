@@ -1,4 +1,4 @@
-#include "simulation/snapshots.h"
+#include "simulation/run/snapshots.h"
 
 #include <algorithm>
 #include <atomic>

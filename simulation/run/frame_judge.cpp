@@ -1,0 +1,177 @@
+#include "simulation/run/frame_judge.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "simulation/contact/response.h"
+#include "simulation/run/live_model.h"
+#include "simulation/tolerance_advice.h"
+
+namespace weft {
+
+namespace {
+
+void record_look(const Watch::Look& look, FrameRecord& record) {
+    const EnergyAccount::Entry& entry = look.entry;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    record.strain_rms = look.strain.rms;
+    record.strain_max = look.strain.most;
+    record.kinetic_energy = entry.energies.kinetic;
+    record.gravity_energy = entry.energies.gravity;
+    record.energies = entry.energies.parts();
+    record.work = entry.is_known ? entry.outside.work : unknown;
+    record.dissipated = entry.is_known ? entry.dissipated() : unknown;
+}
+
+void record_steps(const Scene& scene, FrameRecord& record) {
+    record.substeps = static_cast<std::uint32_t>(scene.substeps);
+    record.iterations = static_cast<std::uint32_t>(scene.solver.iterations);
+}
+
+}  // namespace
+
+FrameJudge::FrameJudge(LiveModel& live, OnTrouble on_trouble, OnCrossing on_crossing, int threads)
+    : live_(live),
+      on_trouble_(on_trouble),
+      choice_(live.model().scene),
+      watch_(live.model(), on_trouble != OnTrouble::kIgnore, threads) {
+    if (on_trouble == OnTrouble::kIgnore) return;
+    const Model& model = live.model();
+    samples_.emplace(model, threads);
+    if (model.scene.contact) crossings_.emplace(model, on_crossing == OnCrossing::kWarn);
+}
+
+Verdict FrameJudge::judge(const Ran& ran, FrameRecord& record) {
+    const Model& model = live_.model();
+    const double start = ran.frame * model.scene.dt;
+    const Watch::Look look = watch_.look(model, live_.start(), start, start + model.scene.dt,
+                                         live_.stored_in_contacts());
+    if (look.alarm) {
+        const Verdict verdict = judge(ran, *look.alarm);
+        if (verdict.kind != Verdict::Kind::kKeep) return verdict;
+    }
+    const auto estimated = ran.may_be_sample ? estimate() : std::nullopt;
+    if (estimated) {
+        const Verdict verdict = judge(ran, look, *estimated);
+        if (verdict.kind != Verdict::Kind::kKeep) return verdict;
+    }
+    if (samples_) samples_->note(model, look.strain.rms);
+    watch_.accept(look, look.alarm.has_value());
+    look_at_contact(ran, record);
+    record_look(look, record);
+    record_steps(model.scene, record);
+    if (estimated) record.relative_error = estimated->relative_error;
+    return {};
+}
+
+/// By what speaks against its state.
+Verdict FrameJudge::judge(const Ran& ran, const Alarm& alarm) {
+    if (on_trouble_ == OnTrouble::kHalve) {
+        if (const auto steps = choice_.halved(live_.model().scene)) {
+            troubles_.tell(
+                ran.frame, alarm,
+                fmt::format("done again, and all that follows, with {} substeps", steps->substeps));
+            return {Verdict::Kind::kAgain, *steps};
+        }
+    }
+    const bool is_told =
+        alarm.kind == Alarm::Kind::kDoubt ||
+        (alarm.kind == Alarm::Kind::kExplosion && on_trouble_ == OnTrouble::kReport);
+    if (!is_told) return {Verdict::Kind::kStop, {}};
+    troubles_.tell(
+        ran.frame, alarm,
+        "the steps are not solved far enough, and what is seen is not believable: more substeps "
+        "or iterations, or another solver, may help (docs/stability.md)");
+    return {};
+}
+
+/// By how far its last substep was solved.
+Verdict FrameJudge::judge(const Ran& ran, const Watch::Look& look, const StepEstimate& estimate) {
+    const Model& model = live_.model();
+    if (StepChoice::misses_tolerance(model.scene, estimate.relative_error)) {
+        const auto steps = choice_.with_more_iterations(model.scene);
+        if (steps) return {Verdict::Kind::kAgain, *steps};
+        tell_of_tolerance(ran.frame, estimate.relative_error);
+    }
+    if (look.alarm) return {};
+    const auto doubt = samples_->doubt(model, look, estimate);
+    if (!doubt) return {};
+    const Verdict verdict = judge(ran, *doubt);
+    if (verdict.kind == Verdict::Kind::kKeep) samples_->told();
+    return verdict;
+}
+
+/// Of the frame that has just run. None: its last substep is no sample.
+std::optional<StepEstimate> FrameJudge::estimate() {
+    if (!samples_ || !samples_->is_begun()) return std::nullopt;
+    return samples_->end(live_.model(), live_.contacts());
+}
+
+/// Once: what would reach it is tried out, which takes a while.
+void FrameJudge::tell_of_tolerance(int frame, double error) {
+    if (std::exchange(tolerance_told_, true)) return;
+    const Scene& scene = live_.model().scene;
+    troubles_.tell_once(
+        frame,
+        fmt::format("solver.tolerance = {:g} is not reached: the relative error of a step is some "
+                    "{:.2g} after {} iterations; {}",
+                    scene.solver.tolerance, error, scene.solver.iterations,
+                    advise_tolerance(scene, samples_->last())));
+}
+
+/// What is not guaranteed is told, where it happens.
+void FrameJudge::look_at_contact(const Ran& ran, FrameRecord& record) {
+    ContactResponse* contact = live_.contact();
+    if (contact == nullptr) return;
+    live_.executor().fetch(contact->cut_counts());
+    live_.executor().fetch(contact->cut_ways());
+    live_.executor().fetch(contact->nearest());
+    record.contacts = {contact->account()};
+    record.contacts.front().redone = ran.redone;
+    const std::string what = contact->trouble();
+    if (!what.empty()) {
+        troubles_.tell(
+            ran.frame, {Alarm::Kind::kDoubt, what, {}},
+            "surfaces may pass through each other there: more substeps may help (docs/contact.md)");
+    }
+    if (crossings_ && crossings_->wants(live_.model(), ran.frame)) look_at_crossings(ran.frame);
+}
+
+/// What nothing above foresaw is told, too: once, however much was told before.
+void FrameJudge::look_at_crossings(int frame) {
+    const std::string what = crossings_->look(live_.model());
+    if (what.empty()) return;
+    troubles_.tell_once(
+        frame, fmt::format("contact: {}; they did not at the start, and contact does not part "
+                           "them: more substeps may help (docs/contact.md)",
+                           what));
+}
+
+std::optional<Steps> FrameJudge::steps_behind(const FrameRecord& record) const {
+    return choice_.with_fewer_iterations(live_.model().scene, record.relative_error);
+}
+
+void FrameJudge::expect_other_length() {
+    if (samples_) samples_->reset();
+    watch_.expect_other_contacts();
+}
+
+void FrameJudge::restart(double time) {
+    watch_.restart(live_.model(), time);
+    if (samples_) samples_->restart(live_.model(), time);
+}
+
+void FrameJudge::resume(double time, const Checkpoint& checkpoint) {
+    choice_.resume(checkpoint.failed_iterations);
+    watch_.restart(live_.model(), time, checkpoint.account);
+    if (samples_) samples_->resume(live_.model());
+}
+
+void FrameJudge::save(Checkpoint& checkpoint) const {
+    checkpoint.failed_iterations = choice_.failed_iterations();
+    checkpoint.account = watch_.account().save();
+}
+
+}  // namespace weft

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "runtime/executor.h"
+#include "scheduler/plan.h"
+
+namespace weft {
+
+class ErrorSamples;
+class LiveModel;
+
+/// Runs a frame's substeps, again from its start where these did not find what they need.
+class FrameRunner {
+public:
+    explicit FrameRunner(LiveModel& live) : live_(live) {}
+
+    /// A frame begins that was not tried yet.
+    void begin_frame();
+    /// All substeps of the frame. It runs again from its start as long as a table was too small for
+    /// it; once more if bodies went where contact did not look for them; and once more if what is
+    /// faster than was reckoned with might have gone through an obstacle, with that obstacle swept.
+    /// samples: which may want the last substep; null: there are none
+    RunTimes run(const Step& step, const scheduler::Plan& plan, int frame, ErrorSamples* samples);
+    /// How often the frame was run again for contact.
+    std::uint32_t redone() const { return redone_; }
+
+private:
+    struct Work {
+        const Step& step;
+        const scheduler::Plan& plan;
+        int frame;
+        ErrorSamples* samples;
+    };
+    std::optional<RunTimes> try_substeps(const Work& work);
+    RunTimes run_substeps(const Work& work, int first);
+    bool lacks_room();
+
+    LiveModel& live_;
+    std::uint32_t redone_ = 0;
+    bool was_redone_ = false;  ///< the frame before it
+};
+
+}  // namespace weft
