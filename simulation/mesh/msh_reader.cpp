@@ -89,6 +89,13 @@ private:
         while (words_.word(end) != end) words_.rest_of_line();
     }
 
+    /// Of version 4.1, where a section says how many things it has, and each of its blocks, too.
+    [[noreturn]] void fail_sum(const char* section, const char* things, std::size_t promised,
+                               std::size_t found) const {
+        words_.fail(fmt::format("{} promised {} {} in all, and its blocks {} {}", section, promised,
+                                things, found > promised ? "have at least" : "have", found));
+    }
+
     // --- nodes
 
     void add_node(std::int64_t tag, Vec3 position) {
@@ -107,12 +114,16 @@ private:
 
     void parse_nodes_4() {
         const std::size_t blocks = words_.count("the number of blocks of nodes", 2);
-        words_.rest_of_line();  // how many nodes, and their lowest and highest tags
+        const std::size_t all = words_.count("the number of all nodes", 8);
+        words_.rest_of_line();  // their lowest and highest tags
+        std::size_t sum = 0;
         for (std::size_t block = 0; block < blocks; ++block) {
             words_.integer("the dimension of nodes");
             words_.integer("the entity of nodes");
             words_.integer("whether nodes have parameters");
             const std::size_t count = words_.count("the number of nodes", 8);
+            sum += count;
+            if (sum > all) fail_sum("$Nodes", "nodes", all, sum);
             std::vector<std::int64_t> tags;
             for (std::size_t i = 0; i < count; ++i) tags.push_back(words_.integer("a node's tag"));
             for (const std::int64_t tag : tags) {
@@ -120,6 +131,7 @@ private:
                 words_.rest_of_line();  // parameters
             }
         }
+        if (sum < all) fail_sum("$Nodes", "nodes", all, sum);
     }
 
     // --- elements, of which each has a line
@@ -171,16 +183,21 @@ private:
 
     void parse_elements_4() {
         const std::size_t blocks = words_.count("the number of blocks of elements", 2);
-        words_.rest_of_line();  // how many elements, and their lowest and highest tags
+        const std::size_t all = words_.count("the number of all elements", 4);
+        words_.rest_of_line();  // their lowest and highest tags
+        std::size_t sum = 0;
         for (std::size_t block = 0; block < blocks; ++block) {
             words_.integer("the dimension of elements");
             words_.integer("the entity of elements");
             const std::int64_t type = words_.integer("the elements' type");
             const std::size_t count = words_.count("the number of elements", 4);
+            sum += count;
+            if (sum > all) fail_sum("$Elements", "elements", all, sum);
             for (std::size_t i = 0; i < count; ++i) {
                 parse_element(words_.integer("an element's tag"), type);
             }
         }
+        if (sum < all) fail_sum("$Elements", "elements", all, sum);
     }
 
     MeshWords words_;

@@ -1,5 +1,6 @@
 // Legacy VTK files: docs.vtk.org, "VTK File Formats", Simple Legacy Formats.
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,7 @@ public:
         parse_head();
         while (!words_.at_end() && !has_types_) parse_section();
         if (!has_types_) words_.fail("the file ends here, expected CELLS and CELL_TYPES");
+        expect_no_more_types();
         return builder_.finish();
     }
 
@@ -82,7 +84,10 @@ private:
         if (!begin_.empty()) words_.fail("CELLS come a second time");
         const std::size_t first = words_.count("the number of cells", 2);
         const std::size_t second = words_.count("the size of the cells", 2);
-        if (first == 0) return begin_.push_back(0);
+        if (first == 0) {
+            expect_sum("CELLS", second, 0);
+            return begin_.push_back(0);
+        }
         const std::string_view word = words_.word("the cells");
         if (word == "OFFSETS") return parse_offsets(first, second);
         begin_.push_back(0);
@@ -97,6 +102,14 @@ private:
             for (std::int64_t k = 0; k < size; ++k) points_.push_back(words_.integer("a point"));
             begin_.push_back(points_.size());
         }
+        expect_sum("CELLS", second, points_.size() + first);
+    }
+
+    /// What a keyword promises in advance, against what there was.
+    void expect_sum(const char* keyword, std::size_t promised, std::size_t found) const {
+        if (found == promised) return;
+        words_.fail(fmt::format("{} promised {} numbers in all, and there are {}", keyword,
+                                promised, found));
     }
 
     std::int64_t integer_of(std::string_view word) {
@@ -121,6 +134,10 @@ private:
                     fmt::format("offset {}: offsets must rise from 0 to {}", offset, points));
             }
             begin_.push_back(static_cast<std::size_t>(offset));
+        }
+        if (begin_.back() != points) {
+            words_.fail(fmt::format("the last offset is {}: it must be {}, as CELLS promised",
+                                    begin_.back(), points));
         }
         expect(words_.word("CONNECTIVITY"), "CONNECTIVITY");
         words_.word("the connectivity's type");
@@ -150,6 +167,15 @@ private:
             }
         }
         has_types_ = true;
+    }
+
+    /// What comes behind them is not read, but for how it begins.
+    void expect_no_more_types() {
+        if (words_.at_end()) return;
+        const std::string_view word = words_.word("a section");
+        if (std::isalpha(static_cast<unsigned char>(word.front())) != 0) return;
+        words_.fail(fmt::format("{}: CELL_TYPES promised {} types, and they were before this",
+                                quoted(word), begin_.size() - 1));
     }
 
     void add_tetrahedron(std::size_t cell) {
