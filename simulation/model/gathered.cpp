@@ -1,10 +1,13 @@
 #include "simulation/model/gathered.h"
 
+#include <fmt/format.h>
+
 #include "simulation/bodies/cloth_mesh.h"
 #include "simulation/bodies/obstacle_mesh.h"
 #include "simulation/bodies/solid_mesh.h"
 #include "simulation/families/builder.h"
 #include "simulation/model/origin.h"
+#include "simulation/model/shared_pins.h"
 #include "simulation/topology/adjacency.h"
 
 namespace weft {
@@ -13,7 +16,8 @@ namespace {
 
 /// What cloths and solids have in common. Returns the body's first vertex.
 template <class Body, class Mesh>
-int add_body(Gathered& all, const std::string& kind, const Body& body, const Mesh& mesh) {
+int add_body(Gathered& all, const std::string& kind, const Body& body, const Mesh& mesh,
+             Warnings& warnings) {
     const int first = static_cast<int>(all.rest.size());
     all.bodies.push_back({body.name, kind, first, mesh.vertex_count()});
     all.rest.insert(all.rest.end(), mesh.positions.begin(), mesh.positions.end());
@@ -21,11 +25,13 @@ int add_body(Gathered& all, const std::string& kind, const Body& body, const Mes
     all.held.resize(all.rest.size(), 0);
     all.damping.resize(all.rest.size(), body.damping.value_or(0.0));
     all.is_damped = all.is_damped || body.damping.has_value();
+    SharedPins shared(mesh.vertex_count());
     for (const PinGroup& pins : body.pins) {
         MovingPins::Group group;
         for (const int vertex : pinned_vertices(body, pins, mesh)) {
             const auto v = static_cast<std::size_t>(first + vertex);
             all.held[v] = 1;
+            shared.add(vertex, pins);
             group.vertices.push_back(first + vertex);
             group.rest.push_back(all.rest[v]);
         }
@@ -33,6 +39,7 @@ int add_body(Gathered& all, const std::string& kind, const Body& body, const Mes
         group.motion = *pins.motion;
         all.moving.push_back(std::move(group));
     }
+    shared.warn(fmt::format("{} '{}'", kind, body.name), warnings);
     return first;
 }
 
@@ -56,7 +63,7 @@ void add_mass(Gathered& all, const std::array<int, arity>& element, int first, d
 
 void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& warnings) {
     const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
-    const int first = add_body(all, "cloth", cloth, mesh);
+    const int first = add_body(all, "cloth", cloth, mesh, warnings);
     if (std::holds_alternative<MeshFile>(cloth.shape)) {
         all.bodies.back().parts = named_parts(mesh);
         all.bodies.back().welded = mesh.welded;
@@ -77,7 +84,7 @@ void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& 
 
 void add_solid(Gathered& all, const Solid& solid, Warnings& warnings) {
     const TetMesh mesh = build_solid_mesh(solid, warnings);
-    const int first = add_body(all, "solid", solid, mesh);
+    const int first = add_body(all, "solid", solid, mesh, warnings);
     add_surface(all, boundary_faces(mesh), first);
     for (const auto& t : mesh.tetrahedra) {
         add_mass(all, t, first, solid.density * six_volumes(mesh, t) / 6.0);

@@ -25,6 +25,8 @@ struct MotionKey {
     double rotate = 0.0;  ///< [degrees] about the axis
     /// Absent: the motion's. Between keys of two axes the turn goes the shortest way.
     std::optional<Vec3> axis{};
+
+    friend bool operator==(const MotionKey&, const MotionKey&) = default;
 };
 
 /// A prescribed rigid motion, of an obstacle or of pins, relative to the place at time 0:
@@ -42,6 +44,9 @@ struct Motion {
     /// The motion as a map of the world at time 0 to the world at `time` [s]:
     /// p(time) = displacement(time).to_world(p(0)).
     Frame displacement(double time) const;
+
+    /// By what was written. Parents are equal if they are one.
+    friend bool operator==(const Motion&, const Motion&) = default;
 
 private:
     Frame own_displacement(double time) const;
