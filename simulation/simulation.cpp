@@ -159,7 +159,8 @@ void Simulation::begin_again(Steps steps) {
 /// With the error that says what went wrong, and where.
 void Simulation::stop(const Step& step) {
     live_->restore(live_->start());
-    diagnose_frame(frame_, live_->start(), judge_->watch(), step, live_->model(), live_->solver());
+    diagnose_frame(frame_, live_->start(), judge_->watch(), step, live_->model(), live_->solver(),
+                   judge_->advice());
 }
 
 void Simulation::set_steps(int substeps, int iterations) {

@@ -77,9 +77,6 @@ private:
     const Step& step_;
 };
 
-constexpr const char* kAdvice =
-    "more substeps or iterations, or another solver, may help (docs/stability.md)";
-
 std::string text_of(int frame, const Finding& finding, const Model& model) {
     const std::string where = fmt::format("frame {}, substep {}", frame, finding.substep);
     if (!finding.alarm.vertex) return fmt::format("{}: {}", where, finding.alarm.what);
@@ -91,14 +88,14 @@ std::string text_of(int frame, const Finding& finding, const Model& model) {
 }  // namespace
 
 void diagnose_frame(int frame, const SimulationState& start, const Watch& watch, const Step& step,
-                    Model& model, Solver& solver) {
+                    Model& model, Solver& solver, const std::string& advice) {
     start.put(model, solver);
     Search search(frame, start, watch, step, model, solver);
     const auto finding = search.find();
     start.put(model, solver);
     const std::string where =
         finding ? text_of(frame, *finding, model) : fmt::format("frame {}", frame);
-    throw RunError(fmt::format("the simulation diverged in {}; {}", where, kAdvice));
+    throw RunError(fmt::format("the simulation diverged in {}; {}", where, advice));
 }
 
 }  // namespace weft

@@ -82,9 +82,20 @@ Verdict FrameJudge::judge(const Ran& ran, const Alarm& alarm) {
     if (!is_told) return {Verdict::Kind::kStop, {}};
     troubles_.tell(
         ran.frame, alarm,
-        "the steps are not solved far enough, and what is seen is not believable: more substeps "
-        "or iterations, or another solver, may help (docs/stability.md)");
+        "the steps are not solved far enough, and what is seen is not believable: " + advice());
     return {};
+}
+
+std::string FrameJudge::advice() const {
+    std::string given_up;
+    if (on_trouble_ == OnTrouble::kHalve) {
+        const Scene& scene = live_.model().scene;
+        given_up = fmt::format(
+            "--on-trouble halve has given up, with {} substeps, {} times as many as at first; ",
+            scene.substeps, choice_.refinement(scene));
+    }
+    return given_up +
+           "more substeps or iterations, or another solver, may help (docs/stability.md)";
 }
 
 /// By how far its last substep was solved.

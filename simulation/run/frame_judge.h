@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "runtime/trace/records.h"
 #include "simulation/checks/crossing_checks.h"
@@ -43,6 +44,8 @@ public:
     };
     /// record: of the frame; set where it is kept
     Verdict judge(const Ran& ran, FrameRecord& record);
+    /// What may help where a state cannot be; the end of a sentence.
+    std::string advice() const;
     /// For the frames behind one that is kept; none: they go on as before.
     std::optional<Steps> steps_behind(const FrameRecord& record) const;
 

@@ -21,6 +21,8 @@ public:
 
     /// Steps of half the size; none: they have become small enough.
     std::optional<Steps> halved(const Scene& scene) const;
+    /// How many times the substeps that the run began with.
+    int refinement(const Scene& scene) const { return scene.substeps / first_substeps_; }
     /// Whether a relative error is beyond the tolerance; never without one.
     static bool misses_tolerance(const Scene& scene, double error);
     /// Where it is: more iterations; none: there are as many as may be. Those of the scene count as

@@ -117,6 +117,25 @@ TEST(Trouble, IsMendedBySmallerStepsWithTheSameBitsOnEveryDevice) {
     EXPECT_EQ(run_halving("cpu/1+opencl:0/1").hash, halved.hash);
 }
 
+/// So stiff that 16 times the substeps are too few for one iteration.
+TEST(Trouble, ThatSmallerStepsDoNotMendIsToldWithTheirNumber) {
+    Scene scene = too_long();
+    scene.cloths[0].stretch.stiffness = 1e9;
+    scene.solver.iterations = 1;
+    scene.frames = 20;
+    Simulation simulation = simulation_of(scene, OnTrouble::kHalve);
+    std::string all;
+    try {
+        while (simulation.frame() < 20) simulation.advance();
+    } catch (const RunError& error) {
+        all = error.what();
+    }
+    for (const Trouble& trouble : simulation.troubles()) all += trouble.what + '\n';
+    EXPECT_NE(all.find("--on-trouble halve has given up, with 16 substeps, 16 times as many"),
+              std::string::npos)
+        << all;
+}
+
 TEST(Trouble, ARunGoesOnFromItsCheckpointWithItsSmallerSteps) {
     const std::string whole = run_halving("cpu/1").hash;
     Simulation first = simulation_of(too_long(), OnTrouble::kHalve);
