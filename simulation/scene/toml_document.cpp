@@ -62,10 +62,32 @@ std::string one_line(std::string_view text) {
     return line;
 }
 
+/// What needs no quotes on a command line: letters and digits of any alphabet, and a few others.
 bool is_bare_word(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) || c == '_' || c == '-' || c == '+' || c == '.' || c == '/';
+        return std::isalnum(c) || c >= 0x80 || c == '_' || c == '-' || c == '+' || c == '.' ||
+               c == '/';
     });
+}
+
+toml::table parse_value(const std::string& text) { return toml::parse("value = " + text); }
+
+/// The parser knows what is valid UTF-8.
+bool is_utf8(const std::string& bare_word) {
+    try {
+        parse_value('"' + bare_word + '"');
+        return true;
+    } catch (const toml::parse_error&) {
+        return false;
+    }
+}
+
+[[noreturn]] void fail_value(const std::string& text, const std::string& origin,
+                             std::string_view why) {
+    const bool may_be_text =
+        text.empty() || std::string_view("\"'[{").find(text[0]) == std::string_view::npos;
+    throw UserError(fmt::format("{}: the value is not valid TOML: {}{}", origin, one_line(why),
+                                may_be_text ? "; a text like this needs quotes: '\"...\"'" : ""));
 }
 
 void replace_marks(Node& node, const Mark& mark) {
@@ -99,13 +121,10 @@ Node parse_toml_value(const std::string& text, const std::string& origin) {
     try {
         // A line break would let a value bring keys of its own along.
         if (text.find('\n') != std::string::npos) throw UserError(origin + ": one value, one line");
-        const toml::table root = toml::parse("value = " + text);
+        const toml::table root = parse_value(text);
         node = convert(*root.get("value"), origin);
     } catch (const toml::parse_error& error) {
-        if (!is_bare_word(text)) {
-            throw UserError(fmt::format("{}: the value is not valid TOML: {}", origin,
-                                        one_line(error.description())));
-        }
+        if (!is_bare_word(text) || !is_utf8(text)) fail_value(text, origin, error.description());
         node.value = text;
     }
     replace_marks(node, {origin, 0, 0});

@@ -83,6 +83,11 @@ TEST(Overrides, MistakesNameTheCommandLine) {
     EXPECT_NE(message_of("scene[0]=3").find("there is no list here"), std::string::npos);
     EXPECT_NE(message_of("scene.dt.x=3").find("cannot be set inside 0.02"), std::string::npos);
     EXPECT_NE(message_of("scene.dt=[1").find("not valid TOML"), std::string::npos);
+    const std::string spaced = message_of("scene.name=two words");
+    EXPECT_NE(spaced.find("not valid TOML"), std::string::npos) << spaced;
+    EXPECT_NE(spaced.find("a text like this needs quotes"), std::string::npos) << spaced;
+    EXPECT_EQ(message_of("scene.dt=[1").find("quotes"), std::string::npos);
+    EXPECT_NE(message_of("scene.name=\xe9").find("not valid TOML"), std::string::npos);
     EXPECT_NE(message_of("scene.dt=").find("not valid TOML"), std::string::npos);
     EXPECT_NE(message_of("scene.dt=1\nx=2").find("one value"), std::string::npos);
 }
