@@ -97,6 +97,16 @@ def test_advice_holds(tmp_path):
     assert summary["strain_rms"] <= advice["strain_wanted"]
 
 
+def test_what_did_not_run_shows_no_numbers(tmp_path):
+    """There is time to begin with a setting, and for no frame of it."""
+    (tmp_path / "scene.toml").write_text(SHEET)
+    result = weft("stability", "scene.toml", "--device", "cpu/1", "--solvers", "xpbd", "--time",
+                  "0.002", cwd=tmp_path)
+    assert result.returncode == 1
+    trials = [line.split(maxsplit=5) for line in result.stdout.splitlines() if "--time)" in line]
+    assert trials == [["xpbd", "1", "1", "-", "-", "no time was left (--time)"]]
+
+
 def test_wrong_requests():
     expect_error(weft("stability", "--solvers", "vdb"), 2, "vdb", "did you mean 'vbd'")
     expect_error(weft("stability", "--only", "no such case"), 2, "no such case")

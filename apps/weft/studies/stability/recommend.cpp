@@ -115,6 +115,12 @@ nlohmann::ordered_json json_of(const Trial& trial) {
             {"why", trial.why}};
 }
 
+/// Strain and time; dashes where no frame was done.
+std::string measured_text(const Trial& t) {
+    if (t.ms_per_frame == 0.0) return fmt::format("{:>10} {:>10} ", "-", "-");
+    return fmt::format("{:>8.2f} % {:>10.2f} ", 100.0 * t.strain_rms, t.ms_per_frame);
+}
+
 }  // namespace
 
 Advice advise(const RunOptions& options, const std::vector<std::string>& solvers, double seconds) {
@@ -160,9 +166,8 @@ std::string to_text(const Advice& advice) {
     std::string text = fmt::format("{:<8} {:>9} {:>11} {:>10} {:>10}  {}\n", "solver", "substeps",
                                    "iterations", "strain", "ms/frame", "");
     for (const Trial& t : advice.trials) {
-        text += fmt::format("{:<8} {:>9} {:>11} {:>8.2f} % {:>10.2f}  {}\n", t.solver, t.substeps,
-                            t.iterations, 100.0 * t.strain_rms, t.ms_per_frame,
-                            t.holds ? "holds" : t.why);
+        text += fmt::format("{:<8} {:>9} {:>11} {} {}\n", t.solver, t.substeps, t.iterations,
+                            measured_text(t), t.holds ? "holds" : t.why);
     }
     if (!advice.cheapest) return text + "\nnothing that was tried holds; give it more --time\n";
     const Trial& best = *advice.cheapest;
