@@ -181,6 +181,7 @@ COMMAND_LINES = {
     "unknown_key": (["--set", "scene.framez=3"], ["--set scene.framez=3", "did you mean"]),
     "set_without_value": (["--set", "scene.frames"], ["--set scene.frames"]),
     "wrong_strips": (["--strips", "1,1"], ["2 devices", "there are 1 devices"]),
+    "flag_with_a_value": (["--quiet=maybe"], ["--quiet: 'maybe': expected no value"]),
     "resume_and_force": (["--resume", "--force"], ["--resume", "--force"]),
 }
 
@@ -246,10 +247,34 @@ def test_output_folder_whose_name_is_too_long(folder):
 
 
 @pytest.mark.parametrize("option, value", [("--checkpoint", "-1"), ("--checkpoint", "nan"),
-                                           ("--checkpoint", "inf"), ("--strips", "a,b")])
+                                           ("--checkpoint", "inf")])
 def test_numbers_that_are_none(folder, option, value):
-    expect_error(run(folder, option, value), 2, option, f"'{value.split(',')[0]}'",
+    expect_error(run(folder, option, value), 2, option, f"'{value}'",
                  "expected a number, 0 or more")
+
+
+@pytest.mark.parametrize("command, option", [
+    ("run scene.toml", "--strips"),
+    ("error scene.toml", "--frame"),
+    ("error scene.toml", "--max-iterations"),
+    ("error scene.toml --trajectory", "--sweep-substeps"),
+    ("error scene.toml --trajectory", "--sweep-iterations"),
+    ("error scene.toml --trajectory", "--max-work"),
+    ("error scene.toml --trajectory", "--reference-substeps"),
+    ("plan trace.h5", "--frame"),
+    ("replay trace.h5", "--frames"),
+    ("trace gantt trace.h5", "--frame"),
+    ("trace gantt trace.h5", "--substep"),
+])
+@pytest.mark.parametrize("value", ["a", "1.5", "5000000000"])
+def test_whole_numbers_that_are_none(folder, command, option, value):
+    result = weft(*command.split(), option, value, cwd=folder)
+    expect_error(result, 2, option, f"'{value}': expected a whole number",
+                 ", at most 2147483647" if value > "2" and value != "a" else "")
+
+
+def test_lists_of_whole_numbers(folder):
+    expect_error(run(folder, "--strips", "3,b"), 2, "--strips: 'b': expected a whole number")
 
 
 def test_warnings_of_the_start_of_a_quiet_run_that_fails(folder):

@@ -85,7 +85,7 @@ void add_device_options(CLI::App& command, RunOptions& options) {
                     "weft inspect says how many there are")
         ->type_name("N,N")
         ->delimiter(',')
-        ->check(zero_or_more())
+        ->check(whole_number(0))
         ->group(group);
 }
 

@@ -60,6 +60,17 @@ std::string one_line(std::string text) {
     return text;
 }
 
+/// Of "Could not convert: NAME = VALUE". Values of options are checked before; this is for flags.
+std::string describe_conversion(const CLI::App& command, const std::string& text) {
+    const std::size_t begin = text.find("--"), equals = text.find(" = ");
+    if (begin == std::string::npos || equals == std::string::npos || equals < begin) return text;
+    const std::string name = text.substr(begin, equals - begin);
+    const CLI::Option* option = command.get_option_no_throw(name);
+    const bool is_flag = option != nullptr && option->get_expected_min() == 0;
+    return fmt::format("{}: '{}': expected {}", name, text.substr(equals + 3),
+                       is_flag ? "no value" : "another kind of value");
+}
+
 }  // namespace
 
 std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -69,7 +80,9 @@ std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& err
     if (&app == &command) {
         return fmt::format("a command is missing; known: {}", fmt::join(command_names(app), ", "));
     }
-    return fmt::format("{}; see '{} --help'", one_line(error.what()), command_path(app, command));
+    std::string what = one_line(error.what());
+    if (error.get_name() == "ConversionError") what = describe_conversion(command, what);
+    return fmt::format("{}; see '{} --help'", what, command_path(app, command));
 }
 
 }  // namespace weft

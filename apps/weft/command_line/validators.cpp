@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -36,6 +37,19 @@ CLI::Validator above_zero() {
 
 CLI::Validator zero_or_more() {
     return number_where([](double value) { return value >= 0.0; }, "a number, 0 or more");
+}
+
+CLI::Validator whole_number(std::optional<int> least) {
+    const auto check = [least](const std::string& text) -> std::string {
+        int value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= least.value_or(value)) return "";
+        const bool is_large = text.size() > 9 && text.find_first_not_of("0123456789") == text.npos;
+        return fmt::format(
+            "'{}': expected a whole number{}{}", text,
+            least ? fmt::format(", {} or more", *least) : "",
+            is_large ? fmt::format(", at most {}", std::numeric_limits<int>::max()) : "");
+    };
+    return CLI::Validator(check, "");
 }
 
 CLI::Validator path_name() {

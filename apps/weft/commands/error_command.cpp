@@ -90,9 +90,7 @@ void add_trajectory_options(CLI::App& command, ErrorOptions& options) {
         flag->excludes(command.get_option(other));
     }
     const auto add = [&](const char* name, auto& value, const char* help) {
-        CLI::Option* option = command.add_option(name, value, help);
-        option->needs(flag);
-        return option;
+        return command.add_option(name, value, help)->needs(flag)->check(whole_number());
     };
     add("--sweep-substeps", options.sweep_substeps, "substeps per frame, separated by commas")
         ->delimiter(',')
@@ -117,8 +115,10 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
     for (const char* single : {"--device", "--plan", "--solver", "--iterations", "--strips"}) {
         command.remove_option(command.get_option(single));
     }
-    command.add_option("--frame", options.frame,
-                       "the step is the first one of this frame (default: the middle of the run)");
+    command
+        .add_option("--frame", options.frame,
+                    "the step is the first one of this frame (default: the middle of the run)")
+        ->check(whole_number());
     command
         .add_option(
             "--start", options.start,
@@ -140,6 +140,7 @@ void add_error_options(CLI::App& command, ErrorOptions& options) {
         ->delimiter(',');
     command
         .add_option("--max-iterations", options.max_iterations, "iterations that a curve goes to")
+        ->check(whole_number())
         ->capture_default_str();
     command
         .add_option("--time", options.time,

@@ -93,9 +93,11 @@ void add_gantt_command(CLI::App& trace) {
     const auto options = std::make_shared<GanttOptions>();
     command->add_option("TRACE", options->trace, "trace.h5 of a run")->required();
     command->add_option("--frame", options->frame, "its number; default: the last complete one")
-        ->type_name("N");
+        ->type_name("N")
+        ->check(whole_number(0));
     command->add_option("--substep", options->substep, "in the frame")
         ->type_name("K")
+        ->check(whole_number(0))
         ->capture_default_str();
     command
         ->add_option("--iterations", options->iterations,

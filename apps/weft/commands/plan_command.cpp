@@ -153,6 +153,7 @@ void add_trace_options(CLI::App& command, PlanOptions& options) {
     const std::string group = "Traces";
     command.add_option("--frame", options.frame, "number of the frame; default: the last one")
         ->type_name("N")
+        ->check(whole_number(0))
         ->group(group);
     command
         .add_option("--costs", options.costs, "plan with the costs in this file (.json) instead")

@@ -226,7 +226,7 @@ void add_replay_command(CLI::App& app) {
         ->type_name("FILE");
     command->add_option("--frames", options->frames, "only so many")
         ->type_name("N")
-        ->check(above_zero());
+        ->check(whole_number(1));
     add_talk_options(*command, options->run);
     command->footer(
         "The scene, what the command line changed, and each frame's plan come from the trace;\n"
