@@ -156,6 +156,13 @@ def test_default_name_stands_beside_the_trace(tmp_path):
     xml.parse(tmp_path / "made_up-frame2-substep1.svg")
 
 
+@pytest.mark.parametrize("iterations, ending", [("0:1", "0-1"), ("1", "1-1"), (":1", "0-1")])
+def test_pictures_of_some_iterations_have_names_of_their_own(tmp_path, iterations, ending):
+    made_up(tmp_path)
+    result = weft("trace", "gantt", "made_up.h5", "--iterations", iterations, cwd=tmp_path)
+    assert result.stdout == f"made_up-frame5-substep0-iterations{ending}.svg\n", result.stderr
+
+
 def png_pixels(path):
     """Rows of RGB bytes of a picture with 8 bits per channel; checks each chunk's sum."""
     data = path.read_bytes()

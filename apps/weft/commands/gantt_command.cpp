@@ -28,12 +28,17 @@ struct GanttOptions {
     std::optional<std::string> out;
 };
 
-/// Beside the trace: trace-frame12-substep0.svg.
-std::filesystem::path picture_path(const GanttOptions& options, std::uint32_t frame) {
+/// Beside the trace: trace-frame12-substep0.svg, or trace-frame12-substep0-iterations2-3.svg.
+std::filesystem::path picture_path(const GanttOptions& options, std::uint32_t frame,
+                                   const GanttPart& part) {
     if (options.out) return *options.out;
+    const std::string iterations =
+        part.iterations
+            ? fmt::format("-iterations{}-{}", part.iterations->first, part.iterations->second)
+            : "";
     std::filesystem::path path = options.trace;
-    path.replace_filename(
-        fmt::format("{}-frame{}-substep{}.svg", path.stem().string(), frame, options.substep));
+    path.replace_filename(fmt::format("{}-frame{}-substep{}{}.svg", path.stem().string(), frame,
+                                      part.substep, iterations));
     return path;
 }
 
@@ -63,10 +68,15 @@ std::pair<std::uint32_t, std::uint32_t> iterations_of(const std::string& text,
     return {range.first, last};
 }
 
-Gantt make_gantt(const GanttOptions& options, const RunDescription& run, const FrameRecord& frame) {
+GanttPart part_of(const GanttOptions& options, const FrameRecord& frame) {
+    GanttPart part{options.substep, std::nullopt};
+    if (options.iterations) part.iterations = iterations_of(*options.iterations, frame);
+    return part;
+}
+
+Gantt make_gantt(const GanttOptions& options, const RunDescription& run, const FrameRecord& frame,
+                 const GanttPart& part) {
     try {
-        GanttPart part{options.substep, std::nullopt};
-        if (options.iterations) part.iterations = iterations_of(*options.iterations, frame);
         return Gantt(run, frame, part);
     } catch (const UserError& error) {
         throw UserError(options.trace + ": " + error.what());
@@ -76,9 +86,10 @@ Gantt make_gantt(const GanttOptions& options, const RunDescription& run, const F
 void draw_gantt(const GanttOptions& options) {
     const TraceReader trace(options.trace);
     const FrameRecord frame = trace.frame(find_frame(trace, options.trace, options.frame));
-    const std::filesystem::path path = picture_path(options, frame.frame);
+    const GanttPart part = part_of(options, frame);
+    const std::filesystem::path path = picture_path(options, frame.frame, part);
     const CanvasMaker make_canvas = canvas_for(path);
-    const Gantt gantt = make_gantt(options, trace.run(), frame);
+    const Gantt gantt = make_gantt(options, trace.run(), frame, part);
     const auto canvas = make_canvas(gantt.width(), gantt.height());
     gantt.draw(*canvas);
     write_output(path, canvas->finish());
@@ -106,7 +117,7 @@ void add_gantt_command(CLI::App& trace) {
     command
         ->add_option("--out", options->out,
                      "picture, .svg or .png; default: TRACE's name and folder, "
-                     "-frameN-substepK.svg")
+                     "-frameN-substepK.svg, or -frameN-substepK-iterationsA-B.svg")
         ->check(path_name())
         ->type_name("FILE");
     command->footer(
