@@ -144,3 +144,11 @@ def test_a_second_interrupt_ends_it_at_once(folder):
     assert "frames on" in process.stderr.readline()
     send_until_it_ends(process, [signal.SIGINT])
     assert process.returncode == -signal.SIGINT
+
+
+def test_comparison_draws_no_bar_where_there_is_no_terminal(folder):
+    """A line every few seconds, which three frames do not take."""
+    result = weft("compare", "scene.toml", "--devices", "cpu/1", "--frames", "3", "--substeps", "1",
+                  cwd=folder)
+    assert result.returncode == 0
+    assert result.stderr == ""

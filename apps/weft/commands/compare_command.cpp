@@ -11,6 +11,7 @@
 #include "apps/weft/command_line/validators.h"
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
+#include "apps/weft/output/progress.h"
 #include "apps/weft/process/child_process.h"
 #include "apps/weft/timing/comparison.h"
 #include "runtime/device_list.h"
@@ -53,11 +54,11 @@ Comparison compare(const CompareOptions& options, const std::vector<std::string>
         workers.back()->wait_until_ready();
     }
     std::vector<std::vector<FrameSample>> frames(workers.size());
+    Progress progress("frame", scene.frames, options.run.quiet);
     for (int frame = 0; frame < scene.frames; ++frame) {
         for (std::size_t w = 0; w < workers.size(); ++w) frames[w].push_back(workers[w]->advance());
-        if (!options.run.quiet) std::cerr << fmt::format("\rframe {}/{}", frame + 1, scene.frames);
+        progress.show(frame + 1);
     }
-    if (!options.run.quiet) std::cerr << '\n';
 
     std::vector<ComparisonRow> rows;
     for (std::size_t w = 0; w < workers.size(); ++w) {
