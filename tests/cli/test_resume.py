@@ -74,6 +74,20 @@ def test_goes_on_where_it_ended(folder, number):
     expect_whole_run(folder)
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=lambda n: n.name)
+@pytest.mark.parametrize("name", ["sheet", "other"])
+def test_replacing_the_run_of_another_scene_is_told(folder, number, name):
+    interrupt(folder, number, 3)
+    result = weft("run", "scene.toml", "--device", "cpu/1", "--frames", "2", "--set",
+                  f"scene.name={name}", "--out", "out/sheet", cwd=folder)
+    assert result.returncode == 0, result.stderr
+    text = "out/sheet: this replaces a run of another scene, 'sheet', that did not finish"
+    warnings = summary_of(folder)["warnings"]
+    assert [text in warning for warning in warnings] == ([True] if name == "other" else [])
+    assert (f"weft: warning: {text}" in result.stderr) == (name == "other")
+    assert "replacing a run that did not finish" in result.stderr
+
+
 # Two sheets, of which the upper one starts within the thickness and slides.
 RUBBING = SCENE.replace("substeps = 400", "substeps = 20\ngravity = [1.5, -9.81, 0.0]") + """
 pins = { edges = ["x-", "x+", "z-", "z+"] }

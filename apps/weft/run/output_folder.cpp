@@ -12,6 +12,7 @@
 
 #include "runtime/error.h"
 #include "runtime/io/whole_file.h"
+#include "runtime/trace/trace_reader.h"
 #include "simulation/output/checkpoint.h"
 #include "simulation/output/geometry_writer.h"
 
@@ -25,11 +26,16 @@ namespace {
     throw UserError("--out " + path.string() + ": " + why);
 }
 
+/// A discarded value if it cannot be read.
+nlohmann::json read_json(const fs::path& path) {
+    std::ifstream stream(path);
+    return nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+}
+
 /// A summary that cannot be read counts as finished: better to refuse than to overwrite.
 bool is_finished(const fs::path& summary) {
     if (!fs::exists(summary)) return false;
-    std::ifstream stream(summary);
-    const auto json = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
+    const auto json = read_json(summary);
     return !(json.is_object() && json.contains("finished") && json["finished"] == false);
 }
 
@@ -65,7 +71,22 @@ OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
     }
     check_writable(path_);
     replaces_unfinished_ =
-        !is_finished(summary()) && (fs::exists(trace()) || fs::exists(geometry()));
+        !is_finished(summary()) &&
+        (fs::exists(trace()) || fs::exists(geometry()) || fs::exists(checkpoint()));
+}
+
+std::string OutputFolder::unfinished_scene() const {
+    if (!replaces_unfinished_) return "";
+    if (fs::exists(summary())) {
+        const auto json = read_json(summary());
+        const auto name = json.find("scene");
+        return name != json.end() && name->is_string() ? name->get<std::string>() : "";
+    }
+    try {
+        return TraceReader(trace()).run().scene_name;
+    } catch (const UserError&) {
+        return "";  // none is there, or it was killed before it was one
+    }
 }
 
 OutputFolder::~OutputFolder() {

@@ -28,6 +28,8 @@ public:
     static std::filesystem::path before(const std::filesystem::path& file);
 
     bool replaces_unfinished() const { return replaces_unfinished_; }
+    /// Name of the scene whose unfinished run claim() would take away; empty: none, or not known.
+    std::string unfinished_scene() const;
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path trace() const { return path_ / "trace.h5"; }
     std::filesystem::path geometry() const { return path_ / "frames.vtkhdf"; }

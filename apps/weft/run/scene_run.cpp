@@ -38,6 +38,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     origin_ = run_origin(origin_, options_, scene_, *simulation_);
     RunDescription description = describe();
     if (options_.resume) find_earlier(description);
+    if (!earlier_) warn_of_other_scene();
     description.warnings = all_warnings();
     claim_folder();
     summary_.emplace(description);
@@ -88,6 +89,17 @@ void SceneRun::warn_of_missing_outputs() {
     };
     if (!options_.no_trace && !earlier_->has_trace()) warn(folder_.trace());
     if (!options_.no_geometry && !earlier_->has_geometry()) warn(folder_.geometry());
+}
+
+/// Replacing a run of the same scene is what whoever works on a scene does all the time.
+void SceneRun::warn_of_other_scene() {
+    const std::string other = folder_.unfinished_scene();
+    if (other.empty() || other == scene_.name) return;
+    warnings_.push_back(
+        fmt::format("{}: this replaces a run of another scene, '{}', that did not finish; another "
+                    "--out keeps both",
+                    folder_.path().string(), other));
+    if (!options_.quiet) print_warnings({warnings_.back()});
 }
 
 void SceneRun::claim_folder() {

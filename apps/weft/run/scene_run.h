@@ -37,6 +37,7 @@ private:
     void say_what_runs() const;
     void find_earlier(const RunDescription& description);
     void warn_of_missing_outputs();
+    void warn_of_other_scene();
     void claim_folder();
     void take_over();
     void open_geometry();
