@@ -173,6 +173,10 @@ COMMAND_LINES = {
         ["--plan async", "no asynchronous form"],
     ),
     "async_setting": (["--plan", "async", "--async", "widnow=3"], ["--async widnow", "window"]),
+    "async_of_exact": (
+        ["--plan", "exact", "--async", "window=3"],
+        ["--async window=3", "not for --plan exact"],
+    ),
     "unknown_solver": (["--solver", "xpdb"], ["--solver xpdb", "did you mean 'xpbd'?"]),
     "unknown_math": (["--math", "quick"], ["--math", "'quick'"]),
     "unknown_option": (["--framez", "3"], ["--framez", "did you mean"]),

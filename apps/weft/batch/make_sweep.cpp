@@ -45,6 +45,7 @@ void check_options(const std::string& command, const std::vector<std::string>& o
     } catch (const CLI::ParseError& error) {
         throw UserError(describe_parse_error(app, error));
     }
+    if (command == "run") reader.run.check_async();
     if (command == "stability") static_cast<void>(stability::chosen_cases(reader.suite));
     for (const char* name : {"--device", "--devices"}) {
         const CLI::Option* option = app.get_subcommand(command)->get_option_no_throw(name);

@@ -99,6 +99,7 @@ void settle_solver(RunOptions& run, const Scene& scene) {
 }
 
 void run_comparison(CompareOptions options) {
+    options.run.check_async();
     std::signal(SIGPIPE, SIG_IGN);  // a worker that ends early is reported by its last words
     const Scene scene = read_scene(options.run.scene, options.run.overrides());
     settle_solver(options.run, scene);

@@ -76,6 +76,7 @@ void show_advice(const StudyOptions& options) {
 
 /// What does not fit together would be left out without a word.
 void check_uses(const StudyOptions& options) {
+    options.run.check_async();
     const bool chooses = options.is_short || !options.only.empty() || !options.one_case.empty();
     if (options.run.scene.empty() && !options.run.overrides().empty())
         throw UserError("--set and --frames are for a scene; the suite's cases are as they are");

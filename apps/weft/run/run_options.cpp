@@ -98,4 +98,10 @@ std::filesystem::path RunOptions::folder_for(const std::string& scene_name) cons
     return std::filesystem::path("out") / scene_name;
 }
 
+void RunOptions::check_async() const {
+    if (!async || plan == "auto" || plan == "async") return;
+    throw UserError(fmt::format("--async {}: is for --plan async, or auto, and not for --plan {}",
+                                async->empty() ? "\"\"" : *async, plan));
+}
+
 }  // namespace weft

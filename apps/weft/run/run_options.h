@@ -43,6 +43,8 @@ struct RunOptions {
     SimulationOptions simulation() const;
     /// --out; left out, out/ and the scene's name.
     std::filesystem::path folder_for(const std::string& scene_name) const;
+    /// Throws UserError if there is --async, and --plan is one that does nothing with it.
+    void check_async() const;
 };
 
 }  // namespace weft

@@ -132,6 +132,7 @@ void SceneRun::take_over() {
 
 void SceneRun::set_up() {
     check_device_list(options_.device);
+    options_.check_async();
     const SimulationOptions settings = options_.simulation();
     if (!options_.quiet) {
         std::cerr << fmt::format("weft: {}: setting up on {}{}\n", scene_.name, options_.device,
