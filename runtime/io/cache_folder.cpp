@@ -4,10 +4,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "runtime/error.h"
 #include "runtime/io/system_call.h"
@@ -22,6 +24,17 @@ fs::path cache_folder() {
     if (const char* xdg = std::getenv("XDG_CACHE_HOME")) return fs::path(xdg) / "weft";
     if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "weft";
     return {};
+}
+
+std::string cache_folder_trouble() {
+    const char* own = std::getenv("WEFT_CACHE_DIR");
+    if (own == nullptr || *own == '\0') return "";
+    std::error_code error;
+    fs::create_directories(own, error);
+    if (!error && ::access(own, W_OK | X_OK) != 0) error = {errno, std::generic_category()};
+    if (!error) return "";
+    return std::string("WEFT_CACHE_DIR=") + own + " cannot be used (" + error.message() +
+           "): OpenCL's kernels and measured costs are not kept for the next run";
 }
 
 std::string cache_key(std::string_view text) {

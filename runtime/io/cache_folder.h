@@ -11,6 +11,10 @@ namespace weft {
 /// or ~/.cache. Empty where there is no place for it.
 std::filesystem::path cache_folder();
 
+/// Why $WEFT_CACHE_DIR cannot serve as one, for a warning; empty: it can, or it is not set. Makes
+/// the folder.
+std::string cache_folder_trouble();
+
 /// Name of a cached file: the FNV-1a hash of everything that what it holds depends on.
 std::string cache_key(std::string_view text);
 

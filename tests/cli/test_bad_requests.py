@@ -241,6 +241,23 @@ def test_output_folder_whose_name_is_no_utf_8(folder):
     assert json.loads((folder / name / "summary.json").read_text())["finished"]
 
 
+def test_names_of_any_alphabet_need_no_quotes(folder):
+    result = run(folder, "--set", "scene.name=ünï", "--quiet")
+    assert result.returncode == 0, result.stderr
+    assert (folder / "out/ünï/summary.json").exists()
+
+
+@pytest.mark.parametrize("place", ["scene.toml", "/proc/weft"])
+def test_cache_folder_that_cannot_be_used(folder, place):
+    result = run(folder, env={**os.environ, "WEFT_CACHE_DIR": place})
+    assert result.returncode == 0, result.stderr
+    warnings = [line for line in result.stderr.splitlines() if "warning" in line]
+    assert len(warnings) == 1
+    assert warnings[0].startswith(f"weft: warning: WEFT_CACHE_DIR={place} cannot be used (")
+    summary = json.loads((folder / "out/sheet/summary.json").read_text())
+    assert [f"weft: warning: {text}" for text in summary["warnings"]] == warnings
+
+
 def test_more_states_than_geometry_has_room_for(folder):
     expect_refused(folder, run(folder, "--frames", "1000000"), "scene.toml", "1000001 states",
                    "--no-geometry")

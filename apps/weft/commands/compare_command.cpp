@@ -12,6 +12,7 @@
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/output/progress.h"
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/process/child_process.h"
 #include "apps/weft/timing/comparison.h"
 #include "runtime/device_list.h"
@@ -100,6 +101,7 @@ void settle_solver(RunOptions& run, const Scene& scene) {
 
 void run_comparison(CompareOptions options) {
     options.run.check_async();
+    if (!options.run.quiet) warn_of_cache_folder();
     std::signal(SIGPIPE, SIG_IGN);  // a worker that ends early is reported by its last words
     const Scene scene = read_scene(options.run.scene, options.run.overrides());
     settle_solver(options.run, scene);

@@ -10,6 +10,7 @@
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/commands/study_options.h"
 #include "apps/weft/output/output_file.h"
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/studies/error_report.h"
 #include "apps/weft/studies/study_files.h"
 #include "apps/weft/studies/study_parts.h"
@@ -74,6 +75,7 @@ void run_error(ErrorOptions options) {
     if (options.plans.empty()) options.plans = {"auto"};
     if (options.solvers.empty()) options.solvers = method_names();
     if (options.as_sweep) return make_sweep_of(options);
+    if (!options.run.quiet) warn_of_cache_folder();
     const auto folder = make_output_folder(options.run.folder_for(scene_of(options).name));
     if (options.trajectory)
         run_study(options, study_trajectories(options), folder);

@@ -12,6 +12,7 @@
 #include "apps/weft/commands/study_options.h"
 #include "apps/weft/output/output_file.h"
 #include "apps/weft/output/progress.h"
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/studies/stability/parts.h"
 #include "apps/weft/studies/stability/recommend.h"
 #include "apps/weft/studies/stability/report.h"
@@ -96,6 +97,7 @@ void run_stability(StudyOptions options) {
     check_uses(options);
     if (options.solvers.empty()) options.solvers = method_names();
     if (options.as_sweep) return make_sweep_of(options);
+    if (!options.run.quiet) warn_of_cache_folder();
     if (options.run.scene.empty()) return show_suite(options);
     show_advice(options);
 }

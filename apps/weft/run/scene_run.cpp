@@ -15,6 +15,7 @@
 #include "runtime/clock.h"
 #include "runtime/device_list.h"
 #include "runtime/error.h"
+#include "runtime/io/cache_folder.h"
 #include "simulation/scene/auto_method.h"
 
 namespace weft {
@@ -139,6 +140,8 @@ void SceneRun::set_up() {
                                  touches_opencl(options_.device) ? kFirstTimeNote : "")
                   << std::flush;
     }
+    const std::string trouble = cache_folder_trouble();
+    if (!trouble.empty()) warnings_.push_back(trouble);
     simulation_.emplace(scene_, settings, warnings_);
     if (!options_.quiet) say_what_runs();
 }
