@@ -104,7 +104,6 @@ bool ErrorSamples::wants(const Model& model, int frame) const {
 
 void ErrorSamples::begin(const Model& model, double time) {
     is_begun_ = true;
-    most_strain_ = std::max(most_strain_, last_strain_);
     ends_ = SubstepEnds{model.in_scene_order(model.positions->span()),
                         model.in_scene_order(model.velocities->span()),
                         {},
@@ -230,6 +229,8 @@ std::optional<Alarm> ErrorSamples::doubt_of_places(const Model& model) {
 std::optional<StepEstimate> ErrorSamples::end(const Model& model,
                                               std::vector<FrozenContact> contacts) {
     is_begun_ = false;
+    // Not before: a frame that lacked room begins once more, and is wanted still.
+    most_strain_ = std::max(most_strain_, last_strain_);
     if (!error_) error_ = std::make_unique<StepError>(model.scene, threads_);
     ends_->reached = model.in_scene_order(model.positions->span());
     ends_->held = held_by_obstacles(model, ends_->time + model.h);
