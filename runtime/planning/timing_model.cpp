@@ -12,6 +12,8 @@ namespace {
 constexpr double kFirstLatency = 50e-6;  ///< [s] until it has been measured
 /// A latency that has not been seen for so many frames is learnt anew.
 constexpr int kOldFrames = 24;
+/// Less than this part of the exchanges that waited says as much less: only the longest ones wait.
+constexpr double kPlentyWaited = 0.25;
 constexpr double kFading = 0.95;  ///< of a latency, per frame in which it is hidden
 constexpr double kShortestLatency = 1e-6, kLongestLatency = 5e-3;
 /// Shorter copies say more of the latency than of the bandwidth [bytes].
@@ -139,7 +141,10 @@ void TimingModel::learn_latencies(std::vector<Exchanges>& exchanges) {
         double& latency = links_[link].latency;
         unseen_[link] = std::min(unseen_[link] + 1, kOldFrames);
         if (!waited.empty()) {
-            const double weight = unseen_[link] == kOldFrames ? 1.0 : 0.3;
+            const double share = static_cast<double>(waited.size()) /
+                                 static_cast<double>(waited.size() + hidden.size());
+            const double weight =
+                unseen_[link] == kOldFrames ? 1.0 : 0.3 * std::min(share / kPlentyWaited, 1.0);
             const double measured =
                 std::clamp(scheduler::middle_of(waited), kShortestLatency, kLongestLatency);
             latency += weight * (measured - latency);

@@ -32,25 +32,62 @@ TEST(TimingModel, BandwidthsAreThoseOfAllLongCopiesTogether) {
 }
 
 /// a, on device 0, reads what b, on device 1, made in the instance before.
-TEST(TimingModel, LatenciesAreLearntFromOneInstanceToTheNext) {
-    Buffer<float> buffer("buffer", 10);
-    const TaskBody a{"a", 0, {}}, b{"b", 0, {}};
+struct FromOneInstanceToTheNext {
+    FromOneInstanceToTheNext() {
+        step.add(a, 0, {0, 0}).reads(buffer, 0, 10);
+        step.add(b, 0, {0, 0}).updates(buffer, 0, 10);
+        step.seal();
+        plan.placements = {{0.0, 1.0, 0}, {1.0, 2.0, 1}};
+    }
+
+    /// Both wait: b by 0.1, a by 0.3 ms.
+    std::vector<double> wait() {
+        RunTimes times;
+        times.tasks = {{{0, 0, 0.0, 1.0e-3}, {1, 0, 2.4e-3, 3.4e-3}},
+                       {{0, 1, 1.1e-3, 2.1e-3}, {1, 1, 3.5e-3, 4.5e-3}}};
+        times.end = 4.5e-3;
+        return model.learn(step, plan, times, 2);
+    }
+
+    /// Of 20 times a waits once, by 1 ms; else it is busy until 0.2 ms after its data came.
+    void wait_once() {
+        constexpr int kInstances = 21, kLate = 10;
+        RunTimes times;
+        times.tasks.resize(2);
+        double free = 0.0;
+        for (int i = 0; i < kInstances; ++i) {
+            const double start = i == kLate ? free + 1.1e-3 : free;
+            const double data = i + 1 == kLate ? start + 1.1e-3 : start + 0.8e-3;
+            times.tasks[0].push_back({i, 0, start, start + 1.0e-3});
+            times.tasks[1].push_back({i, 1, data - 0.1e-3, data});
+            free = start + 1.0e-3;
+        }
+        times.end = free;
+        model.learn(step, plan, times, kInstances);
+    }
+
+    Buffer<float> buffer{"buffer", 10};
+    TaskBody a{"a", 0, {}}, b{"b", 0, {}};
     Step step;
-    step.add(a, 0, {0, 0}).reads(buffer, 0, 10);
-    step.add(b, 0, {0, 0}).updates(buffer, 0, 10);
-    step.seal();
     scheduler::Plan plan;
-    plan.placements = {{0.0, 1.0, 0}, {1.0, 2.0, 1}};
-    TimingModel model(1, 2);
-    RunTimes times;
-    times.tasks = {{{0, 0, 0.0, 1.0e-3}, {1, 0, 2.4e-3, 3.4e-3}},
-                   {{0, 1, 1.1e-3, 2.1e-3}, {1, 1, 3.5e-3, 4.5e-3}}};
-    times.end = 4.5e-3;
-    const std::vector<double> mean = model.learn(step, plan, times, 2);
-    EXPECT_NEAR(model.latency(0, 1), 1.0e-4, 1e-9);
-    EXPECT_NEAR(model.latency(1, 0), 3.0e-4, 1e-9);
+    TimingModel model{1, 2};
+};
+
+TEST(TimingModel, LatenciesAreLearntFromOneInstanceToTheNext) {
+    FromOneInstanceToTheNext run;
+    const std::vector<double> mean = run.wait();
+    EXPECT_NEAR(run.model.latency(0, 1), 1.0e-4, 1e-9);
+    EXPECT_NEAR(run.model.latency(1, 0), 3.0e-4, 1e-9);
     ASSERT_EQ(mean.size(), 2U);
     for (const double cost : mean) EXPECT_NEAR(cost, 1.0e-3, 1e-9) << "without waiting";
+}
+
+/// What waits where hardly anything does is the longest of all.
+TEST(TimingModel, AFewWaitsSayLittleOfALatency) {
+    FromOneInstanceToTheNext run;
+    run.wait();
+    run.wait_once();
+    EXPECT_NEAR(run.model.latency(1, 0), 3.0e-4 + 0.06 * 7.0e-4, 1e-9);
 }
 
 TEST(FrameRecorder, SumsUpWhatEachDeviceDid) {
