@@ -6,8 +6,6 @@
 
 namespace weft {
 
-namespace {}  // namespace
-
 Feedback::Feedback(std::size_t kinds, std::size_t devices, std::uint32_t alternatives)
     : timing_(kinds, devices), choice_(alternatives) {}
 
