@@ -69,17 +69,25 @@ TABLE
 
 # Every kernel as OpenCL C 1.2, without a device. Kernels are the headers on top of platform.h.
 kernels_as_opencl() {
-  local clang file wrong=0
+  local clang file as_functions wrong=0
+  # What the program's text has as functions already (runtime/opencl/program_text.cpp).
+  as_functions=$(mktemp)
+  cat >"$as_functions" <<'MACROS'
+#pragma clang system_header
+#define WEFT_KERNEL(name, ...) WEFT_INLINE void name(item i, __VA_ARGS__)
+#define WEFT_NARROW_KERNEL WEFT_KERNEL
+MACROS
   clang=$(command -v clang || command -v clang-14) || { echo 'clang is missing' >&2; return 1; }
   # Apple's clang lacks OpenCL's built-in header; Homebrew's has it.
   if [ -x "$(brew --prefix 2>/dev/null)/opt/llvm/bin/clang" ]; then
     clang=$(brew --prefix)/opt/llvm/bin/clang
   fi
   for file in $(sources 'kernels/*.h' | xargs grep -l '^#include "kernels/platform.h"'); do
-    "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -I . \
-      -Wall -Wextra -Wconversion -Wno-sign-conversion -Wdouble-promotion -Werror \
+    "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -include "$as_functions" -fsyntax-only -I . \
+      -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wdouble-promotion -Werror \
       -Wno-unused-function -Wno-pragma-once-outside-header "$file" || wrong=1
   done
+  rm "$as_functions"
   return $wrong
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <sstream>
@@ -14,6 +15,31 @@ namespace weft {
 namespace {
 
 using kernels::Parameter;
+
+bool is_in_name(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '#';
+}
+
+/// With WEFT_KERNEL(name, parameters) written out as functions. OpenCL C has no macros of any
+/// number of arguments: NVIDIA's compiler refuses what others take for an extension.
+std::string with_kernels_as_functions(std::string_view text) {
+    std::string out;
+    while (true) {
+        const auto begin = std::min(text.find("WEFT_KERNEL("), text.find("WEFT_NARROW_KERNEL("));
+        out += text.substr(0, begin);
+        if (begin == std::string_view::npos) return out;
+        const std::string_view head = text.substr(begin, text.find('(', begin) + 1 - begin);
+        text.remove_prefix(begin + head.size());
+        const auto end = std::ranges::find_if_not(text, is_in_name);
+        const std::string_view name(text.begin(), end);
+        const bool is_definition = !name.empty() && end != text.end() && *end == ',';
+        if (is_definition)
+            out.append("WEFT_INLINE void ").append(name).append("(item i");
+        else
+            out.append(head).append(name);  // in a comment
+        text.remove_prefix(name.size());
+    }
+}
 
 /// Puts headers one after the other, each once, each behind those that it includes. #line makes the
 /// compiler's messages name the real file.
@@ -49,7 +75,7 @@ private:
     }
 
     void append(const kernels::SourceFile& file) {
-        std::istringstream lines{std::string(file.text)};
+        std::istringstream lines{with_kernels_as_functions(file.text)};
         std::string line;
         out_ << "#line 1 \"" << file.path << "\"\n";
         for (int number = 1; std::getline(lines, line); ++number) {
