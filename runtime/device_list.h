@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/device.h"
+#include "runtime/opencl/entry_style.h"
 
 namespace weft {
 
@@ -18,8 +19,10 @@ struct DeviceOptions {
     /// most, as the processor has them); 0 = what suits the device.
     int opencl_lanes = 0;
     int cpu_lanes = 0;
-    /// Launch per colour (as on GPUs) instead of per strip on OpenCL devices.
-    std::optional<bool> per_colour;
+    /// Of OpenCL devices, instead of what suits the device. group_size: work-items of a group
+    /// (kPerGroup); 0 = as many as the device can have
+    std::optional<EntryStyle> entry_style;
+    int group_size = 0;
 };
 
 /// Opens the devices that a list such as "cpu/1+opencl:0/1" names, in its order:

@@ -6,26 +6,33 @@
 
 #include "runtime/launch.h"
 #include "runtime/opencl/api.h"
+#include "runtime/opencl/entry_style.h"
 
 namespace weft {
 
-/// How kernels are turned into entry points.
-enum class EntryStyle {
-    kPerStrip,   ///< one work-item runs a task's whole body on one strip: for CPU devices
-    kPerColour,  ///< one work-item per item, one launch per kernel and colour: for GPUs
+/// How a device wants its entry points.
+struct EntryOptions {
+    EntryStyle style = EntryStyle::kPerStrip;
+    int group_size = 1;               ///< work-items of a group (kPerGroup)
+    std::size_t most_parameters = 0;  ///< [bytes] of an entry point (kPerGroup)
+};
+
+/// One entry point (per strip or group), or one per launch (per colour).
+struct BodyEntries {
+    EntryStyle style;  ///< per colour where a body has more parameters than a group's may have
+    std::vector<std::string> names;
 };
 
 struct ProgramText {
     std::string text;
-    /// [body] names of its entry points: one (per strip), or one per launch (per colour). Bodies
-    /// and launches that do the same with other arguments share them: building a kernel takes a
-    /// driver seconds.
-    std::vector<std::vector<std::string>> entries;
+    /// [body] Bodies and launches that do the same with other arguments share entry points:
+    /// building a kernel takes a driver seconds.
+    std::vector<BodyEntries> entries;
 };
 
 /// OpenCL C for all kernels that the bodies launch, and the entry points that loop over their
 /// items. Nothing else is in it: a kernel that no body names is not compiled.
-ProgramText program_text(std::span<const TaskBody* const> bodies, EntryStyle style);
+ProgramText program_text(std::span<const TaskBody* const> bodies, const EntryOptions& options);
 
 struct BuildOptions {
     int lanes = 1;

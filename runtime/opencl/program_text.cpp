@@ -183,28 +183,47 @@ std::string segment_of(std::size_t launch) {
 /// One colour of the strip. The mask tells the compiler that the last lanes are fewer than
 /// WEFT_LANES, so that it drops the path of whole lanes there: PoCL then builds vertex block
 /// descent over tetrahedra in 10 s instead of 24 s.
-void per_strip_items(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n"
-        << "        int end = segment[1];\n"
-        << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
+void items_of_one(std::ostream& out, const Launch& launch, std::size_t l) {
+    out << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
         << "            item i = {begin, WEFT_LANES};\n            ";
     call_kernel(out, launch, l);
     out << "\n        }\n"
         << "        if (begin < end) {\n"
         << "            item i = {begin, (end - begin) & (WEFT_LANES - 1)};\n            ";
     call_kernel(out, launch, l);
-    out << "\n        }\n    }\n";
+    out << "\n        }\n";
 }
 
-/// Launches [first, end) in turns, colour by colour of the first's segments.
-void per_strip_loop(std::ostream& out, const TaskBody& body, std::size_t first, std::size_t end) {
-    out << "    for (int colour = 0; colour < colours" << first << "; ++colour) {\n";
-    for (std::size_t l = first; l < end; ++l) per_strip_items(out, body.launches[l], l);
-    out << "    }\n";
+/// The same by the work-items of a group, which all see what this colour has written before they go
+/// on.
+void items_of_group(std::ostream& out, const Launch& launch, std::size_t l) {
+    out << "        begin += (int)get_local_id(0) * WEFT_LANES;\n"
+        << "        for (; begin < end; begin += (int)get_local_size(0) * WEFT_LANES) {\n"
+        << "            item i = {begin, min(end - begin, WEFT_LANES)};\n            ";
+    call_kernel(out, launch, l);
+    out << "\n        }\n"
+        << "        barrier(CLK_GLOBAL_MEM_FENCE);\n";
+}
+
+/// Launches [first, end) in turns, colour by colour of the first's segments; there is at least one.
+/// (Where a loop with a barrier might be passed over, PoCL compiles all that follows twice.)
+void loop_over_colours(std::ostream& out, const TaskBody& body, std::size_t first, std::size_t end,
+                       EntryStyle style) {
+    out << "    for (int colour = 0;;) {\n";
+    for (std::size_t l = first; l < end; ++l) {
+        out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n"
+            << "        int end = segment[1];\n";
+        if (style == EntryStyle::kPerStrip)
+            items_of_one(out, body.launches[l], l);
+        else
+            items_of_group(out, body.launches[l], l);
+        out << "    }\n";
+    }
+    out << "    if (++colour >= colours" << first << ") break;\n    }\n";
 }
 
 /// What follows the name of a body's entry point.
-std::string per_strip_entry(const TaskBody& body) {
+std::string whole_body_entry(const TaskBody& body, EntryStyle style) {
     std::ostringstream out;
     out << "(";
     for (std::size_t l = 0; l < body.launches.size(); ++l) {
@@ -212,12 +231,18 @@ std::string per_strip_entry(const TaskBody& body) {
         out << segment_parameters(l);
     }
     out << "int first_strip, int instance, int iteration) {\n"
-        << "    int strip = first_strip + (int)get_global_id(0);\n";
+        << "    int strip = first_strip + (int)get_group_id(0);\n";
     const auto turns = static_cast<std::size_t>(body.taking_turns);
-    if (turns > 0) per_strip_loop(out, body, 0, turns);
-    for (std::size_t l = turns; l < body.launches.size(); ++l) per_strip_loop(out, body, l, l + 1);
+    if (turns > 0) loop_over_colours(out, body, 0, turns, style);
+    for (std::size_t l = turns; l < body.launches.size(); ++l) {
+        loop_over_colours(out, body, l, l + 1, style);
+    }
     out << "}\n\n";
     return out.str();
+}
+
+std::string group_attribute(int size) {
+    return "__attribute__((reqd_work_group_size(" + std::to_string(size) + ", 1, 1)))\n";
 }
 
 /// What follows the name of a launch's entry point. Work-items (item, strip); in strips with fewer
@@ -234,6 +259,26 @@ std::string per_colour_entry(const Launch& launch) {
     call_kernel(out, launch, 0);
     out << "\n}\n\n";
     return out.str();
+}
+
+/// [bytes] of a body's entry point, with the longest pointers.
+std::size_t parameter_bytes(const TaskBody& body) {
+    constexpr std::size_t kPointer = 8, kNumber = 4;
+    std::size_t bytes = 3 * kNumber;
+    for (const Launch& launch : body.launches) {
+        bytes += kPointer + 2 * kNumber;  // segments
+        for (const Argument& argument : launch.arguments) {
+            if (argument.run_value != RunValue::kNone) continue;
+            bytes += argument.buffer != nullptr ? kPointer : kNumber;
+        }
+    }
+    return bytes;
+}
+
+EntryStyle style_of(const TaskBody& body, const EntryOptions& options) {
+    const bool fits =
+        options.style != EntryStyle::kPerGroup || parameter_bytes(body) <= options.most_parameters;
+    return fits ? options.style : EntryStyle::kPerColour;
 }
 
 /// Entry points, each once, whatever number of bodies want it.
@@ -255,21 +300,22 @@ private:
 
 }  // namespace
 
-ProgramText program_text(std::span<const TaskBody* const> bodies, EntryStyle style) {
+ProgramText program_text(std::span<const TaskBody* const> bodies, const EntryOptions& options) {
     HeaderText headers;
     EntryPoints entries;
     ProgramText program;
     for (const TaskBody* body : bodies) {
-        std::vector<std::string>& names = program.entries.emplace_back();
-        for (const Launch& launch : body->launches) {
-            headers.add_kernel(*launch.kernel);
-            if (style == EntryStyle::kPerColour) {
-                names.push_back(entries.add("", per_colour_entry(launch)));
+        for (const Launch& launch : body->launches) headers.add_kernel(*launch.kernel);
+        const EntryStyle style = style_of(*body, options);
+        BodyEntries& added = program.entries.emplace_back(style);
+        if (style == EntryStyle::kPerColour) {
+            for (const Launch& launch : body->launches) {
+                added.names.push_back(entries.add("", per_colour_entry(launch)));
             }
-        }
-        if (style == EntryStyle::kPerStrip) {
-            names.push_back(entries.add("__attribute__((reqd_work_group_size(1, 1, 1)))\n",
-                                        per_strip_entry(*body)));
+        } else {
+            added.names.push_back(entries.add(
+                group_attribute(style == EntryStyle::kPerStrip ? 1 : options.group_size),
+                whole_body_entry(*body, style)));
         }
     }
     program.text = headers.text() + "#line 1 \"entry points\"\n" + entries.text();

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 constexpr double kNanosecond = 1e-9;
-constexpr std::size_t kGroup = 64;  // work-items per group where each has one item
+constexpr std::size_t kGroup = 64;  // work-items per group where groups mean nothing
 
 /// What must outlive every command.
 struct Kept {
@@ -75,10 +75,7 @@ OpenClStream::OpenClStream(const OpenClTarget& target, std::span<const TaskBody*
     try {
         queue_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
         copies_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
-        const ProgramText text = program_text(bodies, target.style);
-        const cl::Program program = build_program(target.context, target.device, text.text,
-                                                  {target.info.lanes, target.strict});
-        for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], text.entries[b]);
+        bind(bodies);
     } catch (const cl::Error& error) {
         throw opencl_error("preparing " + target_.info.name, error);
     }
@@ -133,16 +130,33 @@ cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
     return index;
 }
 
-void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
-                        const std::vector<std::string>& entries) {
-    BoundBody bound{&body, {}};
-    for (const std::string& entry : entries) {
-        bound.entries.push_back({cl::Kernel(program, entry.c_str())});
+/// With smaller groups where a kernel needs too much of the device for larger ones.
+void OpenClStream::bind(std::span<const TaskBody* const> bodies) {
+    const ProgramText text = program_text(bodies, target_.entries);
+    const cl::Program program = build_program(target_.context, target_.device, text.text,
+                                              {target_.info.lanes, target_.strict});
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (bind(program, *bodies[b], text.entries[b])) continue;
+        bodies_.clear();
+        target_.entries.group_size /= 2;
+        return bind(bodies);
     }
-    WEFT_ASSERT(entries.size() ==
-                (target_.style == EntryStyle::kPerStrip ? 1 : body.launches.size()));
+}
+
+/// False: it cannot have groups of that size.
+bool OpenClStream::bind(const cl::Program& program, const TaskBody& body,
+                        const BodyEntries& entries) {
+    BoundBody bound{&body, entries.style, {}};
+    for (const Launch& launch : body.launches) WEFT_ASSERT(launch.segments.colour_count >= 1);
+    for (const std::string& entry : entries.names) {
+        const cl::Kernel kernel(program, entry.c_str());
+        const auto most = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(target_.device);
+        if (entries.style == EntryStyle::kPerGroup && most < group_size()) return false;
+        bound.entries.push_back({kernel});
+    }
     set_arguments(bound);
     bodies_.push_back(std::move(bound));
+    return true;
 }
 
 /// One entry has the arguments of all launches, or each launch has its own.
@@ -191,10 +205,10 @@ Completion* OpenClStream::submit(const Submission& s) {
         Running& running = running_.emplace_back();
         running.instance = s.instance;
         running.task = s.number;
-        if (target_.style == EntryStyle::kPerStrip)
-            run_strips(*bound, s, waits, running);
-        else
+        if (bound->style == EntryStyle::kPerColour)
             run_colours(*bound, s, waits, running);
+        else
+            run_strips(*bound, s, waits, running);
         return remember(running.last);
     } catch (const cl::Error& error) {
         throw opencl_error(target_.info.name + ", task '" + s.task->body->name + "'", error);
@@ -215,7 +229,8 @@ void OpenClStream::run_strips(BoundBody& bound, const Submission& s, std::vector
     entry.set(2, s.task->iteration);
     WEFT_ASSERT(s.task->first_strip < s.task->end_strip);
     const auto strips = static_cast<std::size_t>(s.task->end_strip - s.task->first_strip);
-    enqueue(entry, cl::NDRange(strips), cl::NDRange(1), waits, running);
+    const std::size_t group = bound.style == EntryStyle::kPerStrip ? 1 : group_size();
+    enqueue(entry, cl::NDRange(strips * group), cl::NDRange(group), waits, running);
 }
 
 void OpenClStream::run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,

@@ -16,7 +16,7 @@ struct OpenClTarget {
     cl::Context context;
     cl::Device device;
     DeviceInfo info;
-    EntryStyle style = EntryStyle::kPerStrip;
+    EntryOptions entries;
     bool strict = true;
     bool is_pocl = false;  ///< whose streams are kept: see stream.cpp
 };
@@ -51,6 +51,7 @@ private:
     };
     struct BoundBody {
         const TaskBody* body = nullptr;
+        EntryStyle style = EntryStyle::kPerStrip;
         std::vector<Entry> entries;
     };
     /// The first and the last command of something; `first` is empty where they are the same, since
@@ -71,13 +72,14 @@ private:
     };
     enum class Direction { kToDevice, kToHost };
 
+    std::size_t group_size() const { return static_cast<std::size_t>(target_.entries.group_size); }
     DeviceBuffer bring(const BufferStorage& buffer);
     const cl::Buffer& memory_of(const BufferStorage& buffer);
     void set_arguments(BoundBody& bound);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
-    void bind(const cl::Program& program, const TaskBody& body,
-              const std::vector<std::string>& entries);
+    void bind(std::span<const TaskBody* const> bodies);
+    bool bind(const cl::Program& program, const TaskBody& body, const BodyEntries& entries);
     void run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                     Running& running);
     void run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,

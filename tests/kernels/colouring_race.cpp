@@ -13,7 +13,8 @@ namespace {
 
 using namespace weft;
 
-void run(bool is_right, bool per_colour) {
+void run(bool is_right, EntryStyle style) {
+    const bool per_strip = style == EntryStyle::kPerStrip;
     Buffer<float4> positions("positions", 3);
     Buffer<int> ends("ends", 4);
     Buffer<float> material("material", 4);
@@ -33,9 +34,9 @@ void run(bool is_right, bool per_colour) {
     Segments segments{&begin, 0, 1, 1};
     if (is_right)
         segments.colour_count = 2;
-    else if (!per_colour)
+    else if (per_strip)
         segments.strip_count = 2;
-    begin[1] = is_right || !per_colour ? 1 : 2;
+    begin[1] = is_right || per_strip ? 1 : 2;
     begin[2] = 2;
 
     const TaskBody body{"springs",
@@ -53,16 +54,22 @@ void run(bool is_right, bool per_colour) {
 
     DeviceOptions options;
     options.opencl_lanes = 1;
-    options.per_colour = per_colour;
+    options.entry_style = style;
+    options.group_size = 2;
     const auto devices = open_devices("opencl:0", options);
     const TaskBody* const bodies[] = {&body};
     Executor({devices.front().get()}, bodies).run(step, plan, 1);
+}
+
+EntryStyle style_of(std::string_view name) {
+    if (name == "strip") return EntryStyle::kPerStrip;
+    return name == "group" ? EntryStyle::kPerGroup : EntryStyle::kPerColour;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;
-    run(argv[1] == std::string_view("right"), argv[2] == std::string_view("colour"));
+    run(argv[1] == std::string_view("right"), style_of(argv[2]));
     std::puts("1 test ran.");
 }

@@ -1,4 +1,5 @@
-// OpenCL gives the bits of the scalar C++ kernels, with 1 and 8 lanes and in both entry styles.
+// OpenCL gives the bits of the scalar C++ kernels, with 1 and 8 lanes and in all styles of entry
+// points.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ constexpr int kSubstep = 2;
 
 struct Style {
     int lanes;
-    bool per_colour;
+    EntryStyle entries;
 };
 
 class OpenClKernels : public testing::TestWithParam<Style> {
@@ -37,7 +38,8 @@ std::vector<std::unique_ptr<KernelCase>> all_cases(Flavour flavour) {
 TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {
     DeviceOptions options;
     options.opencl_lanes = GetParam().lanes;
-    options.per_colour = GetParam().per_colour;
+    options.entry_style = GetParam().entries;
+    options.group_size = 16;
     const auto devices = open_devices("opencl:0", options);
     for (const Flavour flavour : {Flavour::kRandom, Flavour::kDegenerate}) {
         const auto actual = all_cases(flavour);
@@ -53,13 +55,26 @@ TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {
 }
 
 std::string name_of_style(const testing::TestParamInfo<Style>& info) {
-    return info.param.per_colour ? "PerColour" : "PerStrip";
+    switch (info.param.entries) {
+        case EntryStyle::kPerStrip:
+            return "PerStrip";
+        case EntryStyle::kPerGroup:
+            return "PerGroup";
+        case EntryStyle::kPerColour:
+            return "PerColour";
+    }
+    return {};
 }
 
-INSTANTIATE_TEST_SUITE_P(OneLane, OpenClKernels, testing::Values(Style{1, true}, Style{1, false}),
+INSTANTIATE_TEST_SUITE_P(OneLane, OpenClKernels,
+                         testing::Values(Style{1, EntryStyle::kPerStrip},
+                                         Style{1, EntryStyle::kPerGroup},
+                                         Style{1, EntryStyle::kPerColour}),
                          name_of_style);
 INSTANTIATE_TEST_SUITE_P(EightLanes, OpenClKernels,
-                         testing::Values(Style{8, true}, Style{8, false}), name_of_style);
+                         testing::Values(Style{8, EntryStyle::kPerStrip},
+                                         Style{8, EntryStyle::kPerColour}),
+                         name_of_style);
 
 }  // namespace
 }  // namespace weft::test

@@ -33,6 +33,14 @@ DeviceOptions forced(MemoryModel memory) {
     return options;
 }
 
+Devices one_as_gpus_run_it(EntryStyle style) {
+    DeviceOptions options;
+    options.entry_style = style;
+    options.group_size = 16;
+    options.opencl_lanes = 1;
+    return open_devices("opencl:0", options);
+}
+
 void append(Devices& devices, Devices more) {
     for (auto& device : more) devices.push_back(std::move(device));
 }
@@ -73,13 +81,8 @@ const Machine kMachines[] = {
     {"HybridMapped", true,
      [] { return open_devices("cpu/1+opencl:0/1", forced(MemoryModel::kMapped)); }},
     {"OpenClAlone", true, [] { return open_devices("opencl:0"); }},
-    {"OpenClPerColour", true,
-     [] {
-         DeviceOptions options;
-         options.per_colour = true;
-         options.opencl_lanes = 1;
-         return open_devices("opencl:0", options);
-     }},
+    {"OpenClPerColour", true, [] { return one_as_gpus_run_it(EntryStyle::kPerColour); }},
+    {"OpenClPerGroup", true, [] { return one_as_gpus_run_it(EntryStyle::kPerGroup); }},
     {"OpenClAloneDiscrete", true,
      [] { return open_devices("opencl:0", forced(MemoryModel::kDiscrete)); }},
     {"ThreeDevices", true, three_devices},

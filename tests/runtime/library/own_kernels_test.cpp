@@ -55,7 +55,7 @@ struct Case {
     PlanKind plan = PlanKind::kAuto;
     int lanes = 0;
     bool discrete = false;
-    bool per_colour = false;
+    std::optional<EntryStyle> style = {};
 };
 
 class OwnKernels : public testing::TestWithParam<Case> {};
@@ -65,7 +65,7 @@ TEST_P(OwnKernels, GiveTheBitsOfPlainCode) {
     RunnerOptions options{.devices = c.devices, .plan = c.plan};
     options.device_options.cpu_lanes = options.device_options.opencl_lanes = c.lanes;
     if (c.discrete) options.device_options.memory = MemoryModel::kDiscrete;
-    if (c.per_colour) options.device_options.per_colour = true;
+    options.device_options.entry_style = c.style;
     OwnWork own;
     Runner runner(own.work, options);
     for (int frame = 0; frame < kFrames; ++frame) {
@@ -76,16 +76,15 @@ TEST_P(OwnKernels, GiveTheBitsOfPlainCode) {
     expect_same(own);
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, OwnKernels,
-                         testing::Values(Case{"cpu/1"}, Case{"cpu/2"},
-                                         Case{.devices = "cpu/1", .lanes = 1}, Case{"opencl:0/1"},
-                                         Case{.devices = "opencl:0/1", .lanes = 1},
-                                         Case{.devices = "opencl:0/1", .per_colour = true},
-                                         Case{"cpu/1+opencl:0/1", PlanKind::kExact},
-                                         Case{"cpu/1+opencl:0/1", PlanKind::kPlaced},
-                                         Case{.devices = "cpu/1+opencl:0/1",
-                                              .plan = PlanKind::kExact,
-                                              .discrete = true}));
+INSTANTIATE_TEST_SUITE_P(
+    Devices, OwnKernels,
+    testing::Values(
+        Case{"cpu/1"}, Case{"cpu/2"}, Case{.devices = "cpu/1", .lanes = 1}, Case{"opencl:0/1"},
+        Case{.devices = "opencl:0/1", .lanes = 1},
+        Case{.devices = "opencl:0/1", .style = EntryStyle::kPerColour},
+        Case{.devices = "opencl:0/1", .style = EntryStyle::kPerGroup},
+        Case{"cpu/1+opencl:0/1", PlanKind::kExact}, Case{"cpu/1+opencl:0/1", PlanKind::kPlaced},
+        Case{.devices = "cpu/1+opencl:0/1", .plan = PlanKind::kExact, .discrete = true}));
 
 TEST(OwnDevices, RunBesideOthersWithTheSameBits) {
     OwnWork own;

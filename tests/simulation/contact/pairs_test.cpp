@@ -29,11 +29,12 @@ Devices cpus(int count, int lanes = 0) {
     return devices;
 }
 
-void add_opencl(Devices& devices, MemoryModel memory, int lanes, bool per_colour) {
+void add_opencl(Devices& devices, MemoryModel memory, int lanes, EntryStyle style) {
     DeviceOptions options;
     options.memory = memory;
     options.opencl_lanes = lanes;
-    options.per_colour = per_colour;
+    options.entry_style = style;
+    options.group_size = 16;
     for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
 }
 
@@ -350,7 +351,7 @@ TEST_P(ContactPairsOf, AreKeptByDiscreteDevicesAsWell) {
     if (opencl_devices().empty()) GTEST_SKIP() << "no OpenCL device here";
     Motion motion(mesh_, 0.05f, kNever);
     Devices devices = cpus(1);
-    add_opencl(devices, MemoryModel::kDiscrete, 8, false);
+    add_opencl(devices, MemoryModel::kDiscrete, 8, EntryStyle::kPerStrip);
     Detection run(mesh_, std::move(devices), 8);
     for (int step = 0; step < 12; ++step) {
         run.move_to(motion.next());
@@ -366,14 +367,15 @@ TEST_P(ContactPairsOf, AreTheSameOnOpenClOfEveryKind) {
     const Found expected = Detection(mesh_, cpus(1), kPlenty).find();
     for (const MemoryModel memory : {MemoryModel::kHost, MemoryModel::kDiscrete}) {
         for (const int lanes : {1, 8}) {
-            for (const bool per_colour : {false, true}) {
-                SCOPED_TRACE(testing::Message() << name_of(memory) << ", " << lanes << " lanes, "
-                                                << (per_colour ? "items" : "strips"));
+            for (const EntryStyle style : {EntryStyle::kPerStrip, EntryStyle::kPerGroup}) {
+                SCOPED_TRACE(testing::Message()
+                             << name_of(memory) << ", " << lanes << " lanes, "
+                             << (style == EntryStyle::kPerGroup ? "groups" : "strips"));
                 Devices alone;
-                add_opencl(alone, memory, lanes, per_colour);
+                add_opencl(alone, memory, lanes, style);
                 EXPECT_EQ(Detection(mesh_, std::move(alone), 5).find(), expected);
                 Devices mixed = cpus(1);
-                add_opencl(mixed, memory, lanes, per_colour);
+                add_opencl(mixed, memory, lanes, style);
                 EXPECT_EQ(Detection(mesh_, std::move(mixed), 5).find(), expected);
             }
         }

@@ -61,6 +61,10 @@ const TestScene kScenes[] = {
     {"JpgdWoven", kWoven, Method::kJpgd, "c24b65155926a940791870c2af96d7e9"},
 };
 
+const TestScene& scene(std::string_view name) {
+    return *std::ranges::find(kScenes, name, &TestScene::name);
+}
+
 std::vector<std::unique_ptr<Device>> opened(std::initializer_list<MemoryModel> opencl, int cpus) {
     std::vector<std::unique_ptr<Device>> devices;
     for (int i = 0; i < cpus; ++i) devices.push_back(make_cpu_device(1, {}));
@@ -106,6 +110,14 @@ protected:
     Scene scene_;
 };
 
+DeviceOptions as_gpus(EntryStyle style) {
+    DeviceOptions options;
+    options.opencl_lanes = 1;
+    options.entry_style = style;
+    options.group_size = 16;
+    return options;
+}
+
 class OpenClDeterminism : public Determinism {
 protected:
     void SetUp() override {
@@ -143,15 +155,20 @@ TEST_P(OpenClDeterminism, Alone) {
 }
 
 TEST_P(OpenClDeterminism, EntryPointsOfGpus) {
-    DeviceOptions options;
-    options.per_colour = true;
-    options.opencl_lanes = 1;
+    DeviceOptions options = as_gpus(EntryStyle::kPerGroup);
     EXPECT_EQ(hash_on("opencl:0", options), GetParam().hash);
     options.memory = MemoryModel::kDiscrete;
     EXPECT_EQ(hash_on("opencl:0", options), GetParam().hash);
 }
 
-/// Every kernel of the scene, strip by strip and colour by colour. Small enough for oclgrind, which
+/// What has too many parameters for a group.
+class OpenClColours : public OpenClDeterminism {};
+
+TEST_P(OpenClColours, HaveTheBitsOfStrips) {
+    EXPECT_EQ(hash_on("opencl:0", as_gpus(EntryStyle::kPerColour)), GetParam().hash);
+}
+
+/// Every kernel of the scene, strip by strip and by groups. Small enough for oclgrind, which
 /// cannot run packs of 8.
 TEST_P(OpenClDeterminism, OneSubstepOfOneLane) {
     scene_.solver.iterations = 2;
@@ -164,8 +181,8 @@ TEST_P(OpenClDeterminism, OneSubstepOfOneLane) {
     DeviceOptions options;
     options.opencl_lanes = 1;
     EXPECT_EQ(hash_on(open_opencl_device(0, {}, options)), expected) << "strips";
-    options.per_colour = true;
-    EXPECT_EQ(hash_on(open_opencl_device(0, {}, options)), expected) << "colours";
+    options = as_gpus(EntryStyle::kPerGroup);
+    EXPECT_EQ(hash_on(open_opencl_device(0, {}, options)), expected) << "groups";
 }
 
 TEST_P(OpenClDeterminism, EveryMixtureThatAPlannerMakes) {
@@ -210,6 +227,10 @@ std::string name_of_scene(const testing::TestParamInfo<TestScene>& info) { retur
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Determinism, testing::ValuesIn(kScenes), name_of_scene);
 INSTANTIATE_TEST_SUITE_P(Scenes, OpenClDeterminism, testing::ValuesIn(kScenes), name_of_scene);
+INSTANTIATE_TEST_SUITE_P(Scenes, OpenClColours,
+                         testing::Values(scene("XpbdTouching"), scene("NewtonRubbing"),
+                                         scene("JpgdEverything")),
+                         name_of_scene);
 
 class DeterminismScene : public testing::TestWithParam<TestScene> {};
 

@@ -83,11 +83,12 @@ Devices cpus(int count, int lanes = 0) {
     return devices;
 }
 
-void add_opencl(Devices& devices, MemoryModel memory, int lanes, bool per_colour) {
+void add_opencl(Devices& devices, MemoryModel memory, int lanes, EntryStyle style) {
     DeviceOptions options;
     options.memory = memory;
     options.opencl_lanes = lanes;
-    options.per_colour = per_colour;
+    options.entry_style = style;
+    options.group_size = 16;
     for (auto& device : open_opencl_device(0, {}, options)) devices.push_back(std::move(device));
 }
 
@@ -127,15 +128,16 @@ TEST_F(GrowingTables, OnOpenClOfEveryKind) {
     for (const MemoryModel memory :
          {MemoryModel::kHost, MemoryModel::kMapped, MemoryModel::kDiscrete}) {
         for (const int lanes : {1, 8}) {
-            for (const bool per_colour : {false, true}) {
-                SCOPED_TRACE(testing::Message() << name_of(memory) << ", " << lanes << " lanes, "
-                                                << (per_colour ? "colours" : "strips"));
+            for (const EntryStyle style : {EntryStyle::kPerStrip, EntryStyle::kPerGroup}) {
+                SCOPED_TRACE(testing::Message()
+                             << name_of(memory) << ", " << lanes << " lanes, "
+                             << (style == EntryStyle::kPerGroup ? "groups" : "strips"));
                 for (const int room : {0, 6}) {
                     Devices alone;
-                    add_opencl(alone, memory, lanes, per_colour);
+                    add_opencl(alone, memory, lanes, style);
                     EXPECT_EQ(hash_of(std::move(alone), room), expected);
                     Devices mixed = cpus(1);
-                    add_opencl(mixed, memory, lanes, per_colour);
+                    add_opencl(mixed, memory, lanes, style);
                     EXPECT_EQ(hash_of(std::move(mixed), room), expected);
                     EXPECT_GT(generation_, 0);
                 }
