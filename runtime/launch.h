@@ -22,7 +22,7 @@ namespace weft {
 struct Segments {
     const Buffer<int>* begin = nullptr;  ///< [first + strip_count * colour_count + 1], or more
     int first = 0;                       ///< where this table starts within `begin`
-    int colour_count = 1;                ///< at least 1
+    int colour_count = 1;
     int strip_count = 0;
 
     /// The first item of a strip's colour; colour_count: where the strip ends.

@@ -184,7 +184,8 @@ std::string segment_of(std::size_t launch) {
 /// WEFT_LANES, so that it drops the path of whole lanes there: PoCL then builds vertex block
 /// descent over tetrahedra in 10 s instead of 24 s.
 void items_of_one(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
+    out << "        int end = segment[1];\n"
+        << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
         << "            item i = {begin, WEFT_LANES};\n            ";
     call_kernel(out, launch, l);
     out << "\n        }\n"
@@ -195,9 +196,10 @@ void items_of_one(std::ostream& out, const Launch& launch, std::size_t l) {
 }
 
 /// The same by the work-items of a group, which all see what this colour has written before they go
-/// on.
+/// on. (There may be no colours.)
 void items_of_group(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "        begin += (int)get_local_id(0) * WEFT_LANES;\n"
+    out << "        int end = colour < colours" << l << " ? segment[1] : begin;\n"
+        << "        begin += (int)get_local_id(0) * WEFT_LANES;\n"
         << "        for (; begin < end; begin += (int)get_local_size(0) * WEFT_LANES) {\n"
         << "            item i = {begin, min(end - begin, WEFT_LANES)};\n            ";
     call_kernel(out, launch, l);
@@ -205,21 +207,22 @@ void items_of_group(std::ostream& out, const Launch& launch, std::size_t l) {
         << "        barrier(CLK_GLOBAL_MEM_FENCE);\n";
 }
 
-/// Launches [first, end) in turns, colour by colour of the first's segments; there is at least one.
-/// (Where a loop with a barrier might be passed over, PoCL compiles all that follows twice.)
+/// Launches [first, end) in turns, colour by colour of the first's segments. A group goes through
+/// its loop at least once: where a barrier might be passed over, PoCL compiles all that follows it
+/// twice, and twice again for the next.
 void loop_over_colours(std::ostream& out, const TaskBody& body, std::size_t first, std::size_t end,
                        EntryStyle style) {
-    out << "    for (int colour = 0;;) {\n";
+    const bool is_group = style == EntryStyle::kPerGroup;
+    const std::string colours = "colours" + std::to_string(first);
+    out << "    for (int colour = 0;" << (is_group ? ";" : " colour < " + colours + "; ++colour")
+        << ") {\n";
     for (std::size_t l = first; l < end; ++l) {
-        out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n"
-            << "        int end = segment[1];\n";
-        if (style == EntryStyle::kPerStrip)
-            items_of_one(out, body.launches[l], l);
-        else
-            items_of_group(out, body.launches[l], l);
+        out << "    {\n    " << segment_of(l) << "        int begin = segment[0];\n";
+        (is_group ? items_of_group : items_of_one)(out, body.launches[l], l);
         out << "    }\n";
     }
-    out << "    if (++colour >= colours" << first << ") break;\n    }\n";
+    if (is_group) out << "    if (++colour >= " << colours << ") break;\n";
+    out << "    }\n";
 }
 
 /// What follows the name of a body's entry point.

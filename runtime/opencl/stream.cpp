@@ -130,33 +130,21 @@ cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
     return index;
 }
 
-/// With smaller groups where a kernel needs too much of the device for larger ones.
 void OpenClStream::bind(std::span<const TaskBody* const> bodies) {
     const ProgramText text = program_text(bodies, target_.entries);
     const cl::Program program = build_program(target_.context, target_.device, text.text,
                                               {target_.info.lanes, target_.strict});
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        if (bind(program, *bodies[b], text.entries[b])) continue;
-        bodies_.clear();
-        target_.entries.group_size /= 2;
-        return bind(bodies);
-    }
+    for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], text.entries[b]);
 }
 
-/// False: it cannot have groups of that size.
-bool OpenClStream::bind(const cl::Program& program, const TaskBody& body,
+void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
                         const BodyEntries& entries) {
     BoundBody bound{&body, entries.style, {}};
-    for (const Launch& launch : body.launches) WEFT_ASSERT(launch.segments.colour_count >= 1);
     for (const std::string& entry : entries.names) {
-        const cl::Kernel kernel(program, entry.c_str());
-        const auto most = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(target_.device);
-        if (entries.style == EntryStyle::kPerGroup && most < group_size()) return false;
-        bound.entries.push_back({kernel});
+        bound.entries.push_back({cl::Kernel(program, entry.c_str())});
     }
     set_arguments(bound);
     bodies_.push_back(std::move(bound));
-    return true;
 }
 
 /// One entry has the arguments of all launches, or each launch has its own.
@@ -195,24 +183,52 @@ Completion* OpenClStream::remember(const cl::Event& event) {
 }
 
 Completion* OpenClStream::submit(const Submission& s) {
+    try {
+        while (true) {
+            try {
+                return submit_once(s);
+            } catch (const cl::Error& error) {
+                if (!shows_large_groups(error)) throw;
+                use_smaller_groups();
+            }
+        }
+    } catch (const cl::Error& error) {
+        throw opencl_error(target_.info.name + ", task '" + s.task->body->name + "'", error);
+    }
+}
+
+Completion* OpenClStream::submit_once(const Submission& s) {
     const auto bound = std::find_if(bodies_.begin(), bodies_.end(),
                                     [&](const BoundBody& b) { return b.body == s.task->body; });
     if (bound == bodies_.end()) {
         throw Misuse("task body '" + s.task->body->name + "' is not part of this stream");
     }
-    try {
-        std::vector<cl::Event> waits = events_for(target_.context, s.waits);
-        Running& running = running_.emplace_back();
-        running.instance = s.instance;
-        running.task = s.number;
-        if (bound->style == EntryStyle::kPerColour)
-            run_colours(*bound, s, waits, running);
-        else
-            run_strips(*bound, s, waits, running);
-        return remember(running.last);
-    } catch (const cl::Error& error) {
-        throw opencl_error(target_.info.name + ", task '" + s.task->body->name + "'", error);
-    }
+    std::vector<cl::Event> waits = events_for(target_.context, s.waits);
+    Running running;
+    running.instance = s.instance;
+    running.task = s.number;
+    if (bound->style == EntryStyle::kPerColour)
+        run_colours(*bound, s, waits, running);
+    else
+        run_strips(*bound, s, waits, running);
+    running_.push_back(std::move(running));
+    return remember(running_.back().last);
+}
+
+/// What a kernel needs of a device is known when it is enqueued: NVIDIA's driver names a limit of
+/// 256 work-items for kernels that run well with 1024.
+bool OpenClStream::shows_large_groups(const cl::Error& error) const {
+    const bool is_possible =
+        error.err() == CL_INVALID_WORK_GROUP_SIZE || error.err() == CL_OUT_OF_RESOURCES;
+    return is_possible && target_.entries.style == EntryStyle::kPerGroup && group_size() > 1;
+}
+
+void OpenClStream::use_smaller_groups() {
+    std::vector<const TaskBody*> bodies;
+    for (const BoundBody& bound : bodies_) bodies.push_back(bound.body);
+    bodies_.clear();
+    target_.entries.group_size /= 2;
+    bind(bodies);
 }
 
 void OpenClStream::Entry::set(std::size_t argument, int value) {

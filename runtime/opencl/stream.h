@@ -79,7 +79,10 @@ private:
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
     void bind(std::span<const TaskBody* const> bodies);
-    bool bind(const cl::Program& program, const TaskBody& body, const BodyEntries& entries);
+    void bind(const cl::Program& program, const TaskBody& body, const BodyEntries& entries);
+    Completion* submit_once(const Submission& submission);
+    bool shows_large_groups(const cl::Error& error) const;
+    void use_smaller_groups();
     void run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
                     Running& running);
     void run_colours(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,

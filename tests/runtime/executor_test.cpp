@@ -33,10 +33,10 @@ DeviceOptions forced(MemoryModel memory) {
     return options;
 }
 
-Devices one_as_gpus_run_it(EntryStyle style) {
+Devices one_as_gpus_run_it(EntryStyle style, int group_size = 16) {
     DeviceOptions options;
     options.entry_style = style;
-    options.group_size = 16;
+    options.group_size = group_size;
     options.opencl_lanes = 1;
     return open_devices("opencl:0", options);
 }
@@ -83,6 +83,8 @@ const Machine kMachines[] = {
     {"OpenClAlone", true, [] { return open_devices("opencl:0"); }},
     {"OpenClPerColour", true, [] { return one_as_gpus_run_it(EntryStyle::kPerColour); }},
     {"OpenClPerGroup", true, [] { return one_as_gpus_run_it(EntryStyle::kPerGroup); }},
+    {"OpenClInTooLargeGroups", true,
+     [] { return one_as_gpus_run_it(EntryStyle::kPerGroup, 1 << 14); }},
     {"OpenClAloneDiscrete", true,
      [] { return open_devices("opencl:0", forced(MemoryModel::kDiscrete)); }},
     {"ThreeDevices", true, three_devices},
