@@ -1,6 +1,6 @@
 // OpenCL C 1.2. WEFT_LANES is 1 or 8, given when the program is built: 1 for GPUs, whose hardware
-// packs work-items, and 8 for CPU devices, whose vector units we fill ourselves. WEFT_KERNEL() is no
-// macro here, as OpenCL C has none with "...": it is written out where a program's text is made.
+// packs work-items, and 8 for CPU devices, whose vector units we fill ourselves. WEFT_KERNEL() is
+// no macro here, as OpenCL C has none with "...": it is written out where a program's text is made.
 
 #ifndef WEFT_FAST_MATH
 #pragma OPENCL FP_CONTRACT OFF
