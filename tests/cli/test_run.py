@@ -212,6 +212,13 @@ def test_exploding_run_names_the_guard(folder):
     expect_error(run(folder), 1, "frame 1", "substep", "vertex", "guard.max_speed = 0.3")
 
 
+def test_what_was_tried_is_said_before_a_frame_ends_the_run(folder):
+    (folder / "scene.toml").write_text(SHEET + "\n[guard]\nmax_speed = 0.3\n")
+    result = run(folder, "--on-trouble", "halve")
+    expect_error(result, 1, "frame 1", "halve has given up")
+    assert result.stderr.count("done again, and all that follows") == 4
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_signal_ends_a_run_in_good_order(folder, number):
     (folder / "scene.toml").write_text(LONG)

@@ -190,9 +190,9 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
     last_end_ = simulation_->clock();
     while (frames_done() < scene_.frames && notice.signal() == 0) {
         keep_checkpoint();
-        FrameRecord record = simulation_->advance({.tasks = trace_.has_value()});
+        FrameRecord record = advance();
         say_losses(record);
-        say_troubles(record);
+        say_troubles(record.warnings);
         // First of all, so that a killed run's trace is no more than one frame behind its geometry.
         if (trace_) trace_->settle();
         if (geometry_) geometry_->append(*simulation_);
@@ -203,6 +203,17 @@ void SceneRun::advance_all(const InterruptNotice& notice) {
         close(record);
         summary_->add(record);
         if (trace_) append_trace(std::move(record));
+    }
+}
+
+/// What was seen and done before a frame ended the run is said, too.
+FrameRecord SceneRun::advance() {
+    try {
+        return simulation_->advance({.tasks = trace_.has_value()});
+    } catch (const RunError&) {
+        Warnings of_no_record;
+        say_troubles(of_no_record);
+        throw;
     }
 }
 
@@ -250,15 +261,15 @@ void SceneRun::say_losses(FrameRecord& record) {
     }
 }
 
-/// Warnings of the results, on stderr, in the trace and in the summary.
-void SceneRun::say_troubles(FrameRecord& record) {
+/// Warnings of the results, on stderr, in the summary, and in the trace's record.
+void SceneRun::say_troubles(Warnings& record) {
     const auto& troubles = simulation_->troubles();
     for (; troubles_said_ < troubles.size(); ++troubles_said_) {
         const Trouble& trouble = troubles[troubles_said_];
         const std::string text = fmt::format("frame {}: {}", trouble.frame, trouble.what);
         std::cerr << fmt::format("weft: warning: {}\n", text);
         summary_->warn(text);
-        record.warnings.push_back(trouble.what);
+        record.push_back(trouble.what);
     }
 }
 

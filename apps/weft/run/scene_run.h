@@ -46,7 +46,8 @@ private:
     void keep_checkpoint();
     Checkpoint checkpoint() const;
     void say_losses(FrameRecord& record);
-    void say_troubles(FrameRecord& record);
+    FrameRecord advance();
+    void say_troubles(Warnings& record);
     std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;
