@@ -215,8 +215,8 @@ Completion* OpenClStream::submit_once(const Submission& s) {
     return remember(running_.back().last);
 }
 
-/// What a kernel needs of a device is known when it is enqueued: NVIDIA's driver names a limit of
-/// 256 work-items for kernels that run well with 1024.
+/// Found out by trying: what drivers say of a kernel (CL_KERNEL_WORK_GROUP_SIZE) is less than what
+/// NVIDIA's runs well (docs/measurements.md, "What it taught").
 bool OpenClStream::shows_large_groups(const cl::Error& error) const {
     const bool is_possible =
         error.err() == CL_INVALID_WORK_GROUP_SIZE || error.err() == CL_OUT_OF_RESOURCES;
