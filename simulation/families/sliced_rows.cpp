@@ -26,7 +26,6 @@ SlicedRows::SlicedRows(const std::string& name, std::span<const int> segment_beg
 }
 
 void SlicedRows::add_slice(int first, std::span<const int> lengths) {
-    list_.push_back({first, *std::ranges::max_element(lengths)});
     int longest = 0;
     for (int lane = static_cast<int>(lengths.size()) - 1; lane >= 0; --lane) {
         const int length = lengths[static_cast<std::size_t>(lane)];
@@ -37,12 +36,17 @@ void SlicedRows::add_slice(int first, std::span<const int> lengths) {
         slices_[item] = entry_count_ + lane;
         slices_[item + 1] = longest;
     }
-    entry_count_ += stride_ * list_.back().longest;
+    entry_count_ += stride_ * *std::ranges::max_element(lengths);
 }
 
+/// The longest row of a slice is the longest of one of its halves, whose first items know it.
 int SlicedRows::room(int item) const {
-    const auto next = std::ranges::upper_bound(list_, item, {}, &Slice::first);
-    return std::prev(next)->longest;
+    const auto begin = [&](int i) { return slices_[2 * static_cast<std::size_t>(i)]; };
+    const int first = item - begin(item) % stride_;  // slices begin at multiples of the stride
+    const int second = first + kHalf;
+    const bool has_two =
+        stride_ > kHalf && second < item_count() && begin(second) == begin(first) + kHalf;
+    return has_two ? std::max(length(first), length(second)) : length(first);
 }
 
 }  // namespace weft

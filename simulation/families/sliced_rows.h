@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "runtime/buffer.h"
 
@@ -37,16 +36,10 @@ public:
     Buffer<int>& slices() { return slices_; }
 
 private:
-    struct Slice {
-        int first;  ///< item
-        int longest;
-    };
-
     /// lengths: of its items
     void add_slice(int first, std::span<const int> lengths);
 
     int stride_;
-    std::vector<Slice> list_;
     Buffer<int> slices_;
     int entry_count_ = 0;
 };
