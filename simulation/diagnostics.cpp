@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -12,6 +13,8 @@ namespace weft {
 
 namespace {
 
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 bool is_finite(const float4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -21,12 +24,8 @@ std::string text_of(Vec3 v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y,
 /// The first of the values that is not as it has to be; -1: all are.
 template <class IsGood>
 int find_bad(std::span<const float4> values, const IsGood& is_good) {
-    return first_of_blocks(static_cast<int>(values.size()), [&](int begin, int end) {
-        for (int v = begin; v < end; ++v) {
-            if (!is_good(values[static_cast<std::size_t>(v)])) return v;
-        }
-        return -1;
-    });
+    const auto bad = std::ranges::find_if_not(values, is_good);
+    return bad == values.end() ? -1 : static_cast<int>(bad - values.begin());
 }
 
 std::optional<BadState> find_too_fast(const Model& model) {
@@ -37,10 +36,102 @@ std::optional<BadState> find_too_fast(const Model& model) {
         return dot(u, u) <= most * most;
     });
     if (v < 0) return std::nullopt;
-    return BadState{v,
-                    fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
-                                text_of(to_vec3(velocities[static_cast<std::size_t>(v)])), most)};
+    return BadState{v, fmt::format("velocity {} m/s is beyond guard.max_speed = {:g} m/s",
+                                   text_of(to_vec3(velocities[at(v)])), most)};
 }
+
+/// Of the vertices of a block.
+struct BlockOfVertices {
+    bool is_finite = true;
+    double kinetic = 0.0;  ///< [J]
+    Vec3 moment;           ///< see mass_moment()
+    double fastest = 0.0;  ///< squared [m^2/s^2]; of a block that is finite
+};
+
+/// A state, and what is found out about it block by block.
+class Pass {
+public:
+    Pass(const Model& model, std::span<const float4> positions, std::span<const float4> velocities)
+        : model_(model),
+          positions_(positions),
+          velocities_(velocities),
+          vertices_(at(block_count(model.vertex_count()))) {
+        loops_.push_back({model.vertex_count(), [this](int block, int begin, int end) {
+                              vertices_[at(block)] = of_vertices(begin, end);
+                          }});
+    }
+    Pass(const Pass&) = delete;
+    Pass& operator=(const Pass&) = delete;
+
+    void add_families() {
+        for (const auto& family : model_.families) add(*family);
+    }
+
+    void add_edges() {
+        edges_.resize(at(block_count(model_.edges->count())));
+        loops_.push_back({model_.edges->count(), [this](int block, int begin, int end) {
+                              edges_[at(block)] =
+                                  model_.edges->strain_of_block(at(begin), at(end), positions_);
+                          }});
+    }
+
+    void run() const { for_each_block(loops_); }
+
+    bool is_finite() const { return std::ranges::all_of(vertices_, &BlockOfVertices::is_finite); }
+    /// Squared [m^2/s^2]
+    double fastest() const {
+        double most = 0.0;
+        for (const BlockOfVertices& block : vertices_) most = std::max(most, block.fastest);
+        return most;
+    }
+    Strain strain() const { return model_.edges->joined(edges_); }
+    Energies energies(double time, double contact) const {
+        Energies energies;
+        Vec3 moment;
+        for (const BlockOfVertices& block : vertices_) {
+            energies.kinetic += block.kinetic;
+            moment = moment + block.moment;
+        }
+        energies.gravity = -dot(model_.scene.gravity_at(time), moment);
+        for (const auto& sums : families_) {
+            energies.elements.push_back(std::accumulate(sums.begin(), sums.end(), 0.0));
+        }
+        if (model_.scene.contact) energies.contact = contact;
+        return energies;
+    }
+
+private:
+    void add(const ElementFamily& family) {
+        const std::size_t f = families_.size();
+        families_.emplace_back(at(block_count(family.count())));
+        loops_.push_back({family.count(), [this, &family, f](int block, int begin, int end) {
+                              families_[f][at(block)] = family.sum_energies(begin, end, positions_);
+                          }});
+    }
+
+    BlockOfVertices of_vertices(int begin, int end) const {
+        BlockOfVertices block;
+        for (std::size_t v = at(begin); v < at(end); ++v) {
+            const Vec3 x = to_vec3(positions_[v]);
+            const Vec3 u = to_vec3(velocities_[v]);
+            const double square = dot(u, u);
+            // Sums of numbers in single precision are finite in double precision, if these are.
+            block.is_finite &= std::isfinite(x.x + x.y + x.z + square);
+            block.fastest = std::max(block.fastest, square);
+            if (positions_[v].w <= 0.0f) continue;  // held vertices are not part of the system
+            block.kinetic += 0.5 * model_.masses[v] * square;
+            block.moment = block.moment + model_.masses[v] * model_.in_scene(x);
+        }
+        return block;
+    }
+
+    const Model& model_;
+    std::span<const float4> positions_, velocities_;
+    std::vector<BlockOfVertices> vertices_;      ///< [blocks]
+    std::vector<Edges::BlockStrain> edges_;      ///< [blocks]
+    std::vector<std::vector<double>> families_;  ///< [families, blocks] [J]
+    std::vector<BlockLoop> loops_;
+};
 
 }  // namespace
 
@@ -63,22 +154,10 @@ std::vector<double> Energies::parts() const {
 
 Energies measure_energies(const Model& model, std::span<const float4> positions,
                           std::span<const float4> velocities, double time, double contact) {
-    Energies energies;
-    energies.gravity = -dot(model.scene.gravity_at(time), mass_moment(model, positions));
-    energies.kinetic = sum_of_blocks(model.vertex_count(), [&](int begin, int end) {
-        double sum = 0.0;
-        for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {
-            if (positions[v].w <= 0.0f) continue;  // held vertices are not part of the system
-            const Vec3 u = to_vec3(velocities[v]);
-            sum += 0.5 * model.masses[v] * dot(u, u);
-        }
-        return sum;
-    });
-    for (const auto& family : model.families) {
-        energies.elements.push_back(family->total_energy(positions));
-    }
-    if (model.scene.contact) energies.contact = contact;
-    return energies;
+    Pass pass(model, positions, velocities);
+    pass.add_families();
+    pass.run();
+    return pass.energies(time, contact);
 }
 
 Vec3 mass_moment(const Model& model, std::span<const float4> positions) {
@@ -108,10 +187,27 @@ std::optional<BadState> find_non_finite(const Model& model) {
     return BadState{u, "velocity " + velocity + " m/s is not finite"};
 }
 
-std::optional<BadState> find_beyond_guard(const Model& model, const Strain& strain) {
-    if (auto bad = find_too_fast(model)) return bad;
-    return model.edges->find_overstretched(model.positions->span(), strain,
-                                           model.scene.guard.max_strain);
+StateLook look_at_state(const Model& model, double time, double contact, bool with_energies) {
+    const auto positions = model.positions->span();
+    const Guard& guard = model.scene.guard;
+    Pass pass(model, positions, model.velocities->span());
+    if (with_energies) pass.add_families();
+    pass.add_edges();
+    pass.run();
+    StateLook look;
+    if (!pass.is_finite()) {
+        look.non_finite = find_non_finite(model);
+        return look;
+    }
+    look.strain = pass.strain();
+    if (with_energies) look.energies = pass.energies(time, contact);
+    if (pass.fastest() > guard.max_speed * guard.max_speed) {
+        look.beyond_guard = find_too_fast(model);
+    } else {
+        look.beyond_guard =
+            model.edges->find_overstretched(positions, look.strain, guard.max_strain);
+    }
+    return look;
 }
 
 std::string vertex_name(const Model& model, int vertex) {

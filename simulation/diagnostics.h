@@ -32,9 +32,19 @@ Energies measure_energies(const Model& model, std::span<const float4> positions,
 
 /// The first vertex whose position or velocity is not finite.
 std::optional<BadState> find_non_finite(const Model& model);
-/// The first vertex of a finite state that is too fast, or is at an overstretched edge; by the
-/// bounds of the scene's [guard]. strain: the model's
-std::optional<BadState> find_beyond_guard(const Model& model, const Strain& strain);
+
+/// What is to be said of a state between two frames.
+struct StateLook {
+    std::optional<BadState> non_finite;  ///< as above; there is no meaning in the rest then
+    /// The first vertex that is too fast, or is at an overstretched edge; by the bounds of the
+    /// scene's [guard].
+    std::optional<BadState> beyond_guard;
+    Strain strain;
+    Energies energies;
+};
+/// Of the model's, at a time [s], with all that is looked at in one go: threads are woken once.
+/// contact: as above. with_energies: or else there are none
+StateLook look_at_state(const Model& model, double time, double contact, bool with_energies);
 
 /// Sum of mass times place of all that moves freely, in the scene's own coordinates [kg m].
 Vec3 mass_moment(const Model& model, std::span<const float4> positions);

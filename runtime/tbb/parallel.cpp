@@ -42,21 +42,32 @@ void for_each_block(int count, const std::function<void(int block, int begin, in
     tbb::parallel_for(0, block_count(count), one);
 }
 
+void for_each_block(std::span<const BlockLoop> loops) {
+    std::vector<int> ends;  // of the loops, in blocks of all
+    for (const BlockLoop& loop : loops) {
+        ends.push_back((ends.empty() ? 0 : ends.back()) + block_count(loop.count));
+    }
+    if (ends.empty()) return;
+    tbb::parallel_for(0, ends.back(), [&](int number) {
+        const auto found = std::ranges::upper_bound(ends, number) - ends.begin();
+        const BlockLoop& loop = loops[static_cast<std::size_t>(found)];
+        const int block =
+            number - (ends[static_cast<std::size_t>(found)] - block_count(loop.count));
+        const int begin = block * kBlock;
+        loop.action(block, begin, std::min(begin + kBlock, loop.count));
+    });
+}
+
+void for_each_apart(int count, const std::function<void(int i)>& action) {
+    tbb::parallel_for(0, count, action, tbb::simple_partitioner());
+}
+
 double sum_of_blocks(int count, const std::function<double(int begin, int end)>& sum_of) {
     std::vector<double> sums(static_cast<std::size_t>(block_count(count)));
     for_each_block(count, [&](int block, int begin, int end) {
         sums[static_cast<std::size_t>(block)] = sum_of(begin, end);
     });
     return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
-
-int first_of_blocks(int count, const std::function<int(int begin, int end)>& first_in) {
-    std::vector<int> firsts(static_cast<std::size_t>(block_count(count)), -1);
-    for_each_block(count, [&](int block, int begin, int end) {
-        firsts[static_cast<std::size_t>(block)] = first_in(begin, end);
-    });
-    const auto found = std::ranges::find_if(firsts, [](int first) { return first >= 0; });
-    return found == firsts.end() ? -1 : *found;
 }
 
 }  // namespace weft

@@ -4,9 +4,8 @@ namespace weft {
 
 namespace {
 
-Energies energies_of(const Model& model, double time, double contact = 0.0) {
-    return measure_energies(model, model.positions->span(), model.velocities->span(), time,
-                            contact);
+Energies energies_of(const Model& model, double time) {
+    return measure_energies(model, model.positions->span(), model.velocities->span(), time);
 }
 
 Alarm alarm_of(const EnergyAlarm& alarm) {
@@ -33,18 +32,18 @@ double Watch::found(const StoredInContacts& contacts) const {
 
 Watch::Look Watch::look_here(const Model& model, const SimulationState& before, double start,
                              double end, const StoredInContacts& contacts) const {
-    const auto positions = model.positions->span();
+    const StateLook state = look_at_state(model, end, contacts.end, keeps_account_);
     Look look;
-    if (auto bad = find_non_finite(model)) {
+    if (const auto& bad = state.non_finite) {
         look.alarm = {Alarm::Kind::kNoState, bad->what, bad->vertex};
         return look;
     }
-    look.strain = model.edges->strain(positions);
+    look.strain = state.strain;
     if (keeps_account_) {
         look.entry = account_.with_frame(start, outside_work(model, before, start, end),
-                                         energies_of(model, end, contacts.end), found(contacts));
+                                         state.energies, found(contacts));
     }
-    if (auto bad = find_beyond_guard(model, look.strain)) {
+    if (const auto& bad = state.beyond_guard) {
         look.alarm = {Alarm::Kind::kExplosion, bad->what, bad->vertex};
     } else if (keeps_account_) {
         const auto alarm = account_.look(look.entry, look.strain, model);

@@ -36,11 +36,6 @@ bool is_single(const Edge& edge) {
 
 }  // namespace
 
-struct Edges::BlockStrain {
-    double squares = 0.0;
-    double most = 0.0;
-};
-
 RestLengths::RestLengths(std::span<const Edge> edges) {
     if (!std::ranges::all_of(edges, is_single)) {
         exact_.reserve(edges.size());
@@ -101,6 +96,10 @@ Strain Edges::strain(std::span<const float4> positions) const {
         blocks[static_cast<std::size_t>(block)] = strain_of_block(
             static_cast<std::size_t>(begin), static_cast<std::size_t>(end), positions);
     });
+    return joined(blocks);
+}
+
+Strain Edges::joined(std::span<const BlockStrain> blocks) const {
     Strain strain;
     double squares = 0.0;
     for (const BlockStrain& block : blocks) {

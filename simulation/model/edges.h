@@ -37,6 +37,15 @@ public:
 
     /// Of all edges. positions: [vertices] in the new order
     Strain strain(std::span<const float4> positions) const;
+    /// Of some edges: the squares added up, and the most.
+    struct BlockStrain {
+        double squares = 0.0;
+        double most = 0.0;
+    };
+    BlockStrain strain_of_block(std::size_t begin, std::size_t end,
+                                std::span<const float4> positions) const;
+    /// Of all edges, from those of their blocks (parallel.h).
+    Strain joined(std::span<const BlockStrain> blocks) const;
     /// The worst edge, if it is stretched to more than 1 + `most` times its length.
     std::optional<BadState> find_overstretched(std::span<const float4> positions,
                                                const Strain& strain, double most) const;
@@ -48,12 +57,9 @@ private:
     struct Ends {
         int a, b;  ///< vertices, new order
     };
-    struct BlockStrain;
     explicit Edges(std::span<const Edge> edges);
     double length_of(std::size_t edge, std::span<const float4> positions) const;
     double strain_of(std::size_t edge, std::span<const float4> positions) const;
-    BlockStrain strain_of_block(std::size_t begin, std::size_t end,
-                                std::span<const float4> positions) const;
 
     std::vector<Ends> ends_;  ///< [edges]
     RestLengths rests_;
