@@ -5,6 +5,7 @@
 
 #include "runtime/cores.h"
 #include "runtime/opencl/opencl_device.h"
+#include "runtime/tbb/parallel.h"
 #include "runtime/unused_memory.h"
 #include "simulation/async_choice.h"
 #include "simulation/checks/diagnosis.h"
@@ -26,11 +27,18 @@ Scene settled(const Scene& scene, PlanKind plan) {
     return auto_method(scene) ? with_choice(scene, choose_solver(scene, plan)) : scene;
 }
 
-/// For what is done between frames: as many as the devices have, of the host's.
+/// For setting up, and for what is done between frames: as many as the devices have, of the host's.
 int host_threads(const std::vector<std::unique_ptr<Device>>& devices) {
     int units = 0;
     for (const auto& device : devices) units += device->info().units;
     return std::clamp(units, 1, static_cast<int>(std::max<std::size_t>(usable_cores().size(), 1)));
+}
+
+template <class Make>
+auto made_with(int threads, const Make& make) {
+    decltype(make()) made;
+    HostThreads(threads).execute([&] { made = make(); });
+    return made;
 }
 
 }  // namespace
@@ -41,8 +49,11 @@ Simulation::Simulation(const Scene& scene, const SimulationOptions& options, War
 Simulation::Simulation(const Scene& scene, std::vector<std::unique_ptr<Device>> devices,
                        const SimulationOptions& options, Warnings& warnings)
     : options_(options),
-      live_(std::make_unique<LiveModel>(settled(scene, options.plan),
-                                        solver_maker(options, devices.size()), warnings)),
+      live_(made_with(host_threads(devices),
+                      [&, chosen = settled(scene, options.plan)] {
+                          return std::make_unique<LiveModel>(
+                              chosen, solver_maker(options, devices.size()), warnings);
+                      })),
       runner_(std::make_unique<FrameRunner>(*live_)),
       judge_(std::make_unique<FrameJudge>(*live_, options.on_trouble, options.on_crossing,
                                           host_threads(devices))) {

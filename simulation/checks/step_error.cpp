@@ -52,9 +52,10 @@ struct StepError::Iteration {
 };
 
 StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
-    Warnings said_already;
-    model_ = std::make_unique<Model>(scene_of_substep(scene), said_already);
-    newton_ = make_newton_refinement(*model_);
+    threads_.execute([&] {
+        model_ = std::make_unique<Model>(scene_of_substep(scene));
+        newton_ = make_newton_refinement(*model_);
+    });
     device_ = make_cpu_device(threads, {});
     executor_ = std::make_unique<Executor>(std::vector<Device*>{device_.get()}, newton_->bodies());
     for (std::size_t i = 0; i < kGradientSteps.size(); ++i) {
@@ -63,7 +64,6 @@ StepError::StepError(const Scene& scene, int threads) : threads_(threads) {
     for (const float4& x : model_->positions->span()) inverse_masses_.push_back(x.w);
     // What has served to set up.
     give_back(model_->triangles);
-    model_->edges = nullptr;
     give_back_freed();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/tbb/parallel.h"
 #include "scheduler/assert.h"
 
 namespace weft {
@@ -36,17 +37,21 @@ BlockRowTables::BlockRowTables(const std::string& name, const Elements& elements
       rows_(name + ".block_rows", list.segment_begin, list.lengths()),
       corners_(name + ".block_corners", entries() * static_cast<std::size_t>(elements.arity())),
       couplings_(entries(), Coupling{-1, 0, 0}) {
-    for (std::size_t s = 0; s + 1 < list.segment_begin.size(); ++s) {
-        int vertex = -1;  // the last block's, or else the next one's
-        for (int block = list.segment_begin[s]; block < list.segment_begin[s + 1]; ++block) {
-            if (list[block].empty()) continue;
-            vertex = row_vertex(elements, list[block]);
-            break;
-        }
-        for (int block = list.segment_begin[s]; block < list.segment_begin[s + 1]; ++block) {
-            if (!list[block].empty()) vertex = row_vertex(elements, list[block]);
-            place(block, vertex, elements, list[block]);
-        }
+    for_each_apart(static_cast<int>(list.segment_begin.size()) - 1,
+                   [&](int strip) { place_strip(strip, elements, list); });
+}
+
+void BlockRowTables::place_strip(int strip, const Elements& elements, const BlockList& list) {
+    const auto begin = list.segment_begin.begin() + strip;
+    int vertex = -1;  // the last block's, or else the next one's
+    for (int block = begin[0]; block < begin[1]; ++block) {
+        if (list[block].empty()) continue;
+        vertex = row_vertex(elements, list[block]);
+        break;
+    }
+    for (int block = begin[0]; block < begin[1]; ++block) {
+        if (!list[block].empty()) vertex = row_vertex(elements, list[block]);
+        place(block, vertex, elements, list[block]);
     }
 }
 
@@ -69,15 +74,17 @@ void BlockRowTables::place(int block, int vertex, const Elements& elements,
 
 void BlockRowTables::fill(Buffer<float>& table, const Numbers& numbers) const {
     WEFT_ASSERT(couplings_.size() == entries());
-    for (std::size_t e = 0; e < entries(); ++e) {
-        const Coupling& coupling = couplings_[e];
-        if (coupling.element < 0) continue;
-        std::size_t place = e;
-        for (const double number : numbers(coupling.element, corners_of(coupling, arity_))) {
-            table[place] = static_cast<float>(number);
-            place += entries();
+    for_each_block(entry_count(), [&](int /*block*/, int begin, int end) {
+        for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e) {
+            const Coupling& coupling = couplings_[e];
+            if (coupling.element < 0) continue;
+            std::size_t place = e;
+            for (const double number : numbers(coupling.element, corners_of(coupling, arity_))) {
+                table[place] = static_cast<float>(number);
+                place += entries();
+            }
         }
-    }
+    });
 }
 
 }  // namespace weft

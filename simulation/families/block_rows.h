@@ -55,6 +55,7 @@ public:
     void filled() { give_back(couplings_); }
 
 private:
+    void place_strip(int strip, const Elements& elements, const BlockList& list);
     void place(int block, int vertex, const Elements& elements, std::span<const Coupling> row);
 
     int arity_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/newton/hinges.h"
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/family.h"
 
 namespace weft {
@@ -12,13 +13,15 @@ class ConstantBlocks final : public BlockRows {
 public:
     ConstantBlocks(const Family& family, const BlockList& list)
         : weights_(family.names().name + ".block_weights", static_cast<std::size_t>(list.count())) {
-        for (int block = 0; block < list.count(); ++block) {
-            double sum = 0.0;
-            for (const Coupling& c : list[block]) {
-                sum -= family.weight(c.element, c.j) * family.weight(c.element, c.k);
+        for_each_block(list.count(), [&](int /*number*/, int begin, int end) {
+            for (int block = begin; block < end; ++block) {
+                double sum = 0.0;
+                for (const Coupling& c : list[block]) {
+                    sum -= family.weight(c.element, c.j) * family.weight(c.element, c.k);
+                }
+                weights_[static_cast<std::size_t>(block)] = static_cast<float>(sum);
             }
-            weights_[static_cast<std::size_t>(block)] = static_cast<float>(sum);
-        }
+        });
     }
 
     std::vector<Launch> couple(const BlockTarget& t) override {

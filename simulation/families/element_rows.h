@@ -37,6 +37,7 @@ private:
     /// corners: at each vertex
     ElementRows(const std::string& name, const Elements& elements, const VertexItems& items,
                 const Grouped<ElementCorner>& corners);
+    void place(int item, int vertex, const Elements& elements, std::span<const ElementCorner> row);
 
     SlicedRows rows_;
     Buffer<int> others_;

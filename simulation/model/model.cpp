@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
 #include "simulation/model/load_paths.h"
@@ -121,11 +122,20 @@ Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings)
     return scene;
 }
 
-/// The scene with all values that the file leaves out and the meshes say.
-Scene with_values(const Scene& given, const Gathered& all, Warnings& warnings) {
-    Scene scene = with_substeps(given, all, warnings);
-    if (scene.contact) choose_thickness(*scene.contact, all, warnings);
+/// The scene with all values that the file leaves out and the meshes say. warnings: null: it has
+/// substeps, and nobody listens
+Scene with_values(const Scene& given, const Gathered& all, Warnings* warnings) {
+    Warnings unheard;
+    Scene scene = warnings != nullptr ? with_substeps(given, all, *warnings) : given;
+    if (scene.contact) {
+        choose_thickness(*scene.contact, all, warnings != nullptr ? *warnings : unheard);
+    }
     return scene;
+}
+
+Gathered gather_quietly(const Scene& scene) {
+    Warnings unheard;
+    return gather(scene, unheard);
 }
 
 std::vector<Obstacle> counted_from(Vec3 origin, std::vector<Obstacle> obstacles) {
@@ -145,9 +155,11 @@ std::vector<float> moved_by(Vec3 way, std::vector<float> xyz) {
 }  // namespace
 
 Model::Model(const Scene& given, Warnings& warnings)
-    : Model(given, gather(given, warnings), warnings) {}
+    : Model(given, gather(given, warnings), &warnings) {}
 
-Model::Model(const Scene& given, Gathered all, Warnings& warnings)
+Model::Model(const Scene& given) : Model(given, gather_quietly(given), nullptr) {}
+
+Model::Model(const Scene& given, Gathered all, Warnings* warnings)
     : scene(with_values(given, all, warnings)),
       h(scene.dt / scene.substeps),
       origin(all.origin),
@@ -164,13 +176,16 @@ Model::Model(const Scene& given, Gathered all, Warnings& warnings)
     vertices_ = {strip_begin_.get(), 0, 1, strips.count()};
 
     make_vertices(all);
-    for (auto& builder : all.families) {
-        families.push_back(builder->build(strips, all.rest));
-        families.back()->reserve(scene.substeps);
-        families.back()->elements().forget_originals();
+    families.resize(all.families.size());
+    for_each_apart(static_cast<int>(families.size()), [&](int f) {
+        auto& builder = all.families[static_cast<std::size_t>(f)];
+        auto& family = families[static_cast<std::size_t>(f)];
+        family = builder->build(strips, all.rest);
+        family->reserve(scene.substeps);
+        family->elements().forget_originals();
         builder.reset();  // of large scenes, they have much memory
-    }
-    edges = std::make_unique<Edges>(families);
+    });
+    if (warnings != nullptr) edges = std::make_unique<Edges>(families);
     if (!all.moving.empty()) {
         moving_pins = std::make_unique<MovingPins>(in_new_order(std::move(all.moving), strips),
                                                    strips, scene.substeps);

@@ -23,6 +23,8 @@ class Model {
 public:
     /// Throws UserError for what is wrong with the scene's meshes, pins and attachments.
     Model(const Scene& scene, Warnings& warnings);
+    /// Of a scene with its substeps, for a step alone: gives no warnings, and has no `edges`.
+    explicit Model(const Scene& scene);
 
     int vertex_count() const { return static_cast<int>(strips.order.size()); }
     /// A vertex of the new order in scene order.
@@ -99,7 +101,7 @@ public:
     Owned<Obstacles> obstacles;     ///< null: none
 
 private:
-    Model(const Scene& scene, Gathered all, Warnings& warnings);
+    Model(const Scene& scene, Gathered all, Warnings* warnings);
     void make_vertices(const Gathered& all);
     template <class Family, class Families>
     static Family* find_in(Families& families) {

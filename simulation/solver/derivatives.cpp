@@ -1,10 +1,17 @@
 #include "simulation/solver/derivatives.h"
 
+#include "runtime/tbb/parallel.h"
+
 namespace weft {
 
 VertexDerivatives::VertexDerivatives(Model& model, VertexItems& items)
-    : items_(items), sums_("derivatives", 9 * static_cast<std::size_t>(items.count())) {
-    for (auto& family : model.families) families_.push_back(family->make_rows(items));
+    : items_(items),
+      sums_("derivatives", 9 * static_cast<std::size_t>(items.count())),
+      families_(model.families.size()) {
+    for_each_apart(static_cast<int>(families_.size()), [&](int f) {
+        const auto i = static_cast<std::size_t>(f);
+        families_[i] = model.families[i]->make_rows(items);
+    });
 }
 
 std::vector<Launch> VertexDerivatives::gather(Phase phase, Buffer<float4>& positions) {

@@ -18,12 +18,16 @@ public:
         for_each([&](int group, const T&) { ++begin_[at(group) + 1]; });
         put_all(for_each);
     }
-    /// Where it is known how many values a group has: size_of(group). They are asked for once then.
-    template <class SizeOf, class ForEach>
-    Grouped(int groups, const SizeOf& size_of, const ForEach& for_each)
-        : begin_(at(groups) + 1, 0) {
-        for (int group = 0; group < groups; ++group) begin_[at(group) + 1] = size_of(group);
-        put_all(for_each);
+    /// So many values of each group, to be filled in: size_of(group).
+    template <class SizeOf>
+    static Grouped of_sizes(int groups, const SizeOf& size_of) {
+        Grouped grouped;
+        grouped.begin_.resize(at(groups) + 1, 0);
+        for (int group = 0; group < groups; ++group) {
+            grouped.begin_[at(group) + 1] = grouped.begin_[at(group)] + size_of(group);
+        }
+        grouped.values_.resize(grouped.begin_.back());
+        return grouped;
     }
 
     int count() const { return static_cast<int>(begin_.size()) - 1; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/tbb/parallel.h"
 #include "scheduler/assert.h"
 
 namespace weft {
@@ -25,7 +26,8 @@ std::vector<Place> find_places(const VertexGraph& graph, const Strips& strips) {
 
 namespace {
 
-/// Colours the groups of one place, by their leaders, so that neighbours differ.
+/// Colours the groups of each place, by their leaders, so that neighbours differ. Places may be
+/// coloured at the same time.
 class VertexColourer {
 public:
     VertexColourer(const VertexGraph& graph, const std::vector<Place>& places, const Groups& groups)
@@ -52,13 +54,13 @@ private:
     static constexpr int kNone = -1;
 
     /// Marks the colours of all neighbours of the group in the same place.
-    void find_taken(int leader, int count) {
-        taken_.assign(static_cast<std::size_t>(count) + 1, 0);
+    void find_taken(int leader, int count, std::vector<char>& taken) const {
+        taken.assign(static_cast<std::size_t>(count) + 1, 0);
         groups_.for_each_member(leader, [&](int v) {
             for (const int other : graph_.neighbours(v)) {
                 const int others_leader = groups_.leader(other);
                 if (others_leader == leader || !(places_[other] == places_[v])) continue;
-                if (colour_[others_leader] != kNone) taken_[colour_[others_leader]] = 1;
+                if (colour_[others_leader] != kNone) taken[colour_[others_leader]] = 1;
             }
         });
     }
@@ -66,10 +68,11 @@ private:
     int first_fit(std::span<const int> order) {
         for (const int v : order) colour_[v] = kNone;
         int count = 0;
+        std::vector<char> taken;
         for (const int v : order) {
-            find_taken(v, count);
-            const auto free = std::find(taken_.begin(), taken_.end(), 0);
-            colour_[v] = static_cast<int>(free - taken_.begin());
+            find_taken(v, count, taken);
+            const auto free = std::find(taken.begin(), taken.end(), 0);
+            colour_[v] = static_cast<int>(free - taken.begin());
             count = std::max(count, colour_[v] + 1);
         }
         return count;
@@ -78,12 +81,13 @@ private:
     /// Moves groups to the smallest colour that their neighbours allow: full packs of lanes.
     void balance(std::span<const int> leaders, int count) {
         std::vector<int> size(static_cast<std::size_t>(count), 0);
+        std::vector<char> taken;
         for (const int v : leaders) ++size[colour_[v]];
         for (const int v : leaders) {
-            find_taken(v, count);
+            find_taken(v, count, taken);
             int best = colour_[v];
             for (int c = 0; c < count; ++c) {
-                if (taken_[c] == 0 && size[c] + 1 < size[best]) best = c;
+                if (taken[c] == 0 && size[c] + 1 < size[best]) best = c;
             }
             --size[colour_[v]];
             ++size[best];
@@ -95,7 +99,6 @@ private:
     const std::vector<Place>& places_;
     const Groups& groups_;
     std::vector<int> colour_;  ///< [vertices], of leaders
-    std::vector<char> taken_;
 };
 
 }  // namespace
@@ -112,11 +115,13 @@ std::vector<int> sort_into_segments(const VertexGraph& graph, const Strips& stri
             .push_back(v);
     }
     VertexColourer colourer(graph, places, groups);
+    std::vector<int> counts(leaders.size());
+    for_each_apart(static_cast<int>(leaders.size()),
+                   [&](int place) { counts[place] = colourer.colour_place(leaders[place]); });
     for (int phase = 0; phase < kPhaseCount; ++phase) {
         int& most = layout.colour_count[static_cast<std::size_t>(phase)];
         for (int strip = 0; strip < strips.count(); ++strip) {
-            const auto place = static_cast<std::size_t>(phase * strips.count() + strip);
-            most = std::max(most, colourer.colour_place(leaders[place]));
+            most = std::max(most, counts[phase * strips.count() + strip]);
         }
     }
 

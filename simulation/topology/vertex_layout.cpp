@@ -8,7 +8,10 @@
 namespace weft {
 
 VertexLayout make_vertex_layout(std::span<const Stencils> kinds, const Strips& strips) {
-    const VertexGraph graph(static_cast<int>(strips.order.size()), kinds);
+    return make_vertex_layout(VertexGraph(static_cast<int>(strips.order.size()), kinds), strips);
+}
+
+VertexLayout make_vertex_layout(const VertexGraph& graph, const Strips& strips) {
     VertexLayout layout;
     layout.vertices = sort_into_segments(graph, strips, find_places(graph, strips),
                                          Groups(graph.vertex_count()), layout);

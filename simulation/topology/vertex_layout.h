@@ -7,6 +7,8 @@
 
 namespace weft {
 
+class VertexGraph;
+
 /// All vertices as items of vertex-wise solvers, stored by (phase, strip, colour), and within by
 /// number of neighbours, most first, and by vertex. Vertices with an element that crosses between
 /// two strips belong to the seam phase, all others to the inner phase.
@@ -29,5 +31,7 @@ struct VertexLayout {
 /// Colours and sorts the vertices.
 /// kinds   all elements, in new vertices; the strips were made with extra_levels >= 1
 VertexLayout make_vertex_layout(std::span<const Stencils> kinds, const Strips& strips);
+/// Where there is a graph of these elements already.
+VertexLayout make_vertex_layout(const VertexGraph& graph, const Strips& strips);
 
 }  // namespace weft

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/builder.h"
 #include "simulation/families/curved_hinges/curved_hinges.h"
 #include "simulation/families/hinges/hinge_shape.h"
@@ -15,10 +16,11 @@ public:
     void add(const ClothPart& part) override {
         if (!part.cloth.bend || part.cloth.bend->rest_is_flat) return;
         const double root = std::sqrt(part.cloth.bend->stiffness);
+        const std::vector<char> are_flat = find_flat(part);
         for (int h = 0; h < part.adjacency.hinges.count(); ++h) {
+            if (are_flat[static_cast<std::size_t>(h)] != 0) continue;
             const auto vertices = part.adjacency.hinges[h];
             const HingeCorners corners = part.rest.hinge(vertices);
-            if (half_fold(corners).is_flat()) continue;
             append(vertices, part.first_vertex);
             sines_ += half_fold(corners).sine * half_fold(corners).sine;
             weights_.push_back(curved_hinge_weights(corners));
@@ -40,6 +42,17 @@ public:
     }
 
 private:
+    static std::vector<char> find_flat(const ClothPart& part) {
+        std::vector<char> are_flat(static_cast<std::size_t>(part.adjacency.hinges.count()));
+        for_each_block(part.adjacency.hinges.count(), [&](int /*block*/, int begin, int end) {
+            for (int h = begin; h < end; ++h) {
+                const HingeCorners corners = part.rest.hinge(part.adjacency.hinges[h]);
+                are_flat[static_cast<std::size_t>(h)] = half_fold(corners).is_flat() ? 1 : 0;
+            }
+        });
+        return are_flat;
+    }
+
     std::vector<CurvedHinges::Weights> weights_;  ///< [hinges]
     double sines_ = 0.0;                          ///< sum of squares, of half the folds
 };

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/builder.h"
 #include "simulation/families/hinges/hinge_shape.h"
 #include "simulation/families/hinges/hinges.h"
@@ -15,18 +17,20 @@ public:
 
     void add(const ClothPart& part) override {
         if (!part.cloth.bend) return;
-        const double root = std::sqrt(part.cloth.bend->stiffness);
-        const auto most = static_cast<std::size_t>(part.adjacency.hinges.count());
-        reserve(most);
-        weights_.reserve(weights_.size() + most);
-        for (int h = 0; h < part.adjacency.hinges.count(); ++h) {
-            const auto vertices = part.adjacency.hinges[h];
-            const HingeCorners corners = part.rest.hinge(vertices);
-            if (!part.cloth.bend->rest_is_flat && !half_fold(corners).is_flat()) continue;
-            append(vertices, part.first_vertex);
-            std::ranges::transform(
-                hinge_weights(corners), weights_.emplace_back().begin(),
-                [&](double weight) { return static_cast<float>(weight * root); });
+        const int most = part.adjacency.hinges.count();
+        std::vector<std::optional<Weights>> found(static_cast<std::size_t>(most));
+        for_each_block(most, [&](int /*block*/, int begin, int end) {
+            for (int h = begin; h < end; ++h) {
+                found[static_cast<std::size_t>(h)] = weights_of(part, part.adjacency.hinges[h]);
+            }
+        });
+        reserve(found.size());
+        weights_.reserve(weights_.size() + found.size());
+        for (int h = 0; h < most; ++h) {
+            const auto& weights = found[static_cast<std::size_t>(h)];
+            if (!weights) continue;
+            append(part.adjacency.hinges[h], part.first_vertex);
+            weights_.push_back(*weights);
         }
     }
 
@@ -44,8 +48,20 @@ public:
     }
 
 private:
-    /// [hinges] [sqrt(J) / m] as the table will have them
-    std::vector<std::array<float, 4>> weights_;
+    using Weights = std::array<float, 4>;  ///< [sqrt(J) / m] as the table will have them
+
+    /// None where the hinge is not flat at rest, as curved ones are another family's.
+    static std::optional<Weights> weights_of(const ClothPart& part, std::span<const int> hinge) {
+        const HingeCorners corners = part.rest.hinge(hinge);
+        if (!part.cloth.bend->rest_is_flat && !half_fold(corners).is_flat()) return std::nullopt;
+        const double root = std::sqrt(part.cloth.bend->stiffness);
+        Weights weights;
+        std::ranges::transform(hinge_weights(corners), weights.begin(),
+                               [&](double weight) { return static_cast<float>(weight * root); });
+        return weights;
+    }
+
+    std::vector<Weights> weights_;  ///< [hinges]
 };
 
 }  // namespace

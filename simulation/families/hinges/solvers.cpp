@@ -1,5 +1,6 @@
 #include "kernels/descent/hinges.h"
 #include "kernels/xpbd/hinges.h"
+#include "runtime/tbb/parallel.h"
 #include "simulation/families/couplings.h"
 #include "simulation/families/hinges/hinges.h"
 #include "simulation/families/sliced_rows.h"
@@ -32,10 +33,12 @@ double weight_of(const Hinges& hinges, std::span<const Coupling> couplings) {
 }
 
 std::vector<int> row_lengths(const Couplings& couplings, const VertexItems& items) {
-    std::vector<int> lengths;
-    for (int i = 0; i < items.count(); ++i) {
-        lengths.push_back(couplings.other_count(items.vertex(i)));
-    }
+    std::vector<int> lengths(at(items.count()));
+    for_each_block(items.count(), [&](int /*block*/, int begin, int end) {
+        for (int i = begin; i < end; ++i) {
+            lengths[at(i)] = couplings.other_count(items.vertex(i));
+        }
+    });
     return lengths;
 }
 
@@ -63,18 +66,24 @@ private:
           weights_("bending.row_weights", others_.count()),
           diagonal_("bending.diagonal", static_cast<std::size_t>(items.count())) {
         const std::vector<double> diagonal = diagonal_of(hinges, items.count());
-        for (int i = 0; i < items.count(); ++i) {
-            const int vertex = items.vertex(i);
-            diagonal_[at(i)] = static_cast<float>(diagonal[at(vertex)]);
-            int k = 0;
-            couplings.for_each_other(vertex, [&](int other, std::span<const Coupling> own) {
-                const std::size_t entry = rows_.entry(i, k++);
-                others_[entry] = other;
-                weights_[entry] = static_cast<float>(weight_of(hinges, own));
-            });
-            const int room = rows_.room(i);
-            for (; k < room; ++k) others_[rows_.entry(i, k)] = vertex;  // no weight
-        }
+        for_each_block(items.count(), [&](int /*block*/, int begin, int end) {
+            for (int i = begin; i < end; ++i) {
+                const int vertex = items.vertex(i);
+                diagonal_[at(i)] = static_cast<float>(diagonal[at(vertex)]);
+                place(i, vertex, hinges, couplings);
+            }
+        });
+    }
+
+    void place(int item, int vertex, const Hinges& hinges, const Couplings& couplings) {
+        int k = 0;
+        couplings.for_each_other(vertex, [&](int other, std::span<const Coupling> own) {
+            const std::size_t entry = rows_.entry(item, k++);
+            others_[entry] = other;
+            weights_[entry] = static_cast<float>(weight_of(hinges, own));
+        });
+        const int room = rows_.room(item);
+        for (; k < room; ++k) others_[rows_.entry(item, k)] = vertex;  // no weight
     }
 
     SlicedRows rows_;

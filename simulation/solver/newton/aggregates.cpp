@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulation/topology/vertex_graph.h"
+#include "runtime/tbb/parallel.h"
 
 namespace weft {
 
@@ -91,8 +91,9 @@ private:
         int best = -1;
         for (const int v : patch) {
             for (const int other : graph_.neighbours(v)) {
+                if (other < begin_ || other >= end_) continue;
                 const int aggregate = all_.of[at(other)];
-                if (other < begin_ || other >= end_ || aggregate == all_.count()) continue;
+                if (aggregate == all_.count()) continue;
                 if (best < 0 || all_.members[at(aggregate)].size() < all_.members[at(best)].size())
                     best = aggregate;
             }
@@ -115,14 +116,13 @@ private:
 
 }  // namespace
 
-Aggregates make_aggregates(const Model& model) {
+Aggregates make_aggregates(const Model& model, const VertexGraph& graph) {
     const int strips = model.strips.count();
     Aggregates all;
     all.per_strip = aggregates_per_strip(model.vertex_count(), strips);
     all.members.resize(at(strips * all.per_strip));
     all.of.assign(at(model.vertex_count()), all.count());
-    const VertexGraph graph(model.vertex_count(), model.stencils());
-    for (int strip = 0; strip < strips; ++strip) StripGrower(graph, model, all, strip).grow();
+    for_each_apart(strips, [&](int strip) { StripGrower(graph, model, all, strip).grow(); });
     return all;
 }
 

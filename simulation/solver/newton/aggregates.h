@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "simulation/model/model.h"
+#include "simulation/topology/vertex_graph.h"
 
 namespace weft {
 
@@ -18,6 +19,7 @@ struct Aggregates {
     int count() const { return static_cast<int>(members.size()); }
 };
 
-Aggregates make_aggregates(const Model& model);
+/// graph: of all its elements
+Aggregates make_aggregates(const Model& model, const VertexGraph& graph);
 
 }  // namespace weft

@@ -13,6 +13,12 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Most elements are, and couple no pair.
+bool is_in_one(const std::vector<int>& aggregate_of, const ElementCorners& corners) {
+    return std::ranges::all_of(
+        corners, [&](int v) { return aggregate_of[at(v)] == aggregate_of[at(corners[0])]; });
+}
+
 }  // namespace
 
 CoarseSpace::CoarseSpace(Model& model, Aggregates aggregates)
@@ -24,8 +30,10 @@ std::vector<CoarseSpace::Pair> CoarseSpace::pairs_of(const Model& model,
     std::vector<Pair> pairs;
     for (const auto& family : model.families) {
         for (int e = 0; e < family->count(); ++e) {
-            for (const int v : family->corners(e)) {
-                for (const int w : family->corners(e)) {
+            const ElementCorners corners = family->corners(e);
+            if (is_in_one(aggregates.of, corners)) continue;
+            for (const int v : corners) {
+                for (const int w : corners) {
                     const int a = aggregates.of[at(v)];
                     const int b = aggregates.of[at(w)];
                     if (a == aggregates.count() || b == a) continue;
@@ -150,7 +158,8 @@ void CoarseSpace::add_family(ElementFamily& family, const std::vector<Pair>& pai
     const auto& of = aggregates_.of;
     const auto key = [](const Pair& p) { return std::pair(p.a, p.b); };
     const auto put_element = [&](int e, const auto& put) {
-        const auto corners = family.corners(e);
+        const ElementCorners corners = family.corners(e);
+        if (is_in_one(of, corners)) return;
         for (std::size_t j = 0; j < corners.size(); ++j) {
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const int a = of[at(corners[j])];

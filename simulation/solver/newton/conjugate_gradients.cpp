@@ -19,13 +19,14 @@ void append(std::vector<Launch>& launches, std::vector<Launch> more) {
 
 }  // namespace
 
-ConjugateGradients::ConjugateGradients(Model& model, DescentSubstep& substep)
+ConjugateGradients::ConjugateGradients(Model& model, DescentSubstep& substep,
+                                       const VertexGraph& graph)
     : model_(model),
       substep_(substep),
       items_(model.strips),
       sums_("newton.sums", 9 * model.positions->count()),
       hessian_(model, items_),
-      coarse_(model, make_aggregates(model)),
+      coarse_(model, make_aggregates(model, graph)),
       halo_(model),
       before_("newton.before", model.positions->count()),
       after_("newton.after", model.positions->count()),

@@ -20,7 +20,8 @@ namespace weft {
 ///   advance:  alpha and beta from those of all strips, and the vectors
 class ConjugateGradients {
 public:
-    ConjugateGradients(Model& model, DescentSubstep& substep);
+    /// graph: of all elements of the model
+    ConjugateGradients(Model& model, DescentSubstep& substep, const VertexGraph& graph);
 
     /// Where the next system is made. Before the first one, `before` and `after` are to be x_t.
     LinearisedAt linearised_at() { return {*model_.positions, before_, after_}; }

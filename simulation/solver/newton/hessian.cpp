@@ -6,6 +6,7 @@
 
 #include "kernels/newton/blocks.h"
 #include "runtime/error.h"
+#include "runtime/tbb/parallel.h"
 #include "simulation/solver/newton/accesses.h"
 
 namespace weft {
@@ -14,8 +15,12 @@ namespace {
 
 /// How many others each row has.
 std::vector<int> lengths_of(const Couplings& couplings) {
-    std::vector<int> lengths;
-    for (int v = 0; v < couplings.vertex_count(); ++v) lengths.push_back(couplings.other_count(v));
+    std::vector<int> lengths(static_cast<std::size_t>(couplings.vertex_count()));
+    for_each_block(couplings.vertex_count(), [&](int /*block*/, int begin, int end) {
+        for (int v = begin; v < end; ++v) {
+            lengths[static_cast<std::size_t>(v)] = couplings.other_count(v);
+        }
+    });
     return lengths;
 }
 
@@ -50,18 +55,9 @@ BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips)
         throw RunError("the Hessian would need more than " + std::to_string(kMost) + " terms");
     }
     list.ranges.resize(others_.count());
-    int begin = 0;
-    for (int v = 0; v < vertex_count_; ++v) {
-        int k = 0;
-        couplings.for_each_other(v, [&](int other, std::span<const Coupling> own) {
-            const std::size_t entry = rows_.entry(v, k++);
-            others_[entry] = other;
-            list.ranges[entry] = {begin, static_cast<int>(own.size())};
-            begin += list.ranges[entry].count;
-        });
-        const int room = rows_.room(v);
-        for (; k < room; ++k) others_[rows_.entry(v, k)] = v;
-    }
+    for_each_block(vertex_count_, [&](int /*block*/, int first, int last) {
+        for (int v = first; v < last; ++v) place_row(v, couplings, list);
+    });
     for (std::size_t s = 0; s < strips.begin.size(); ++s) {
         const int first = strips.begin[s];
         entry_begin_[s] =
@@ -70,6 +66,18 @@ BlockList FamilyHessian::place(const Couplings& couplings, const Strips& strips)
     const auto begins = entry_begin_.span();
     list.segment_begin.assign(begins.begin(), begins.end());
     return list;
+}
+
+void FamilyHessian::place_row(int v, const Couplings& couplings, BlockList& list) {
+    int k = 0;
+    couplings.for_each_other(v, [&](int other, std::span<const Coupling> own) {
+        const std::size_t entry = rows_.entry(v, k++);
+        others_[entry] = other;
+        list.ranges[entry] = {static_cast<int>(own.data() - list.contributions.data()),
+                              static_cast<int>(own.size())};
+    });
+    const int room = rows_.room(v);
+    for (; k < room; ++k) others_[rows_.entry(v, k)] = v;
 }
 
 Launch FamilyHessian::gather_gradients(const DerivativeTarget& t) {
@@ -107,9 +115,11 @@ void FamilyHessian::add_accesses(Step::Adding& task, int first_strip, int end_st
 }
 
 Hessian::Hessian(Model& model, VertexItems& items) : items_(items) {
-    for (auto& family : model.families) {
-        families_.push_back(std::make_unique<FamilyHessian>(*family, items, model));
-    }
+    families_.resize(model.families.size());
+    for_each_apart(static_cast<int>(families_.size()), [&](int f) {
+        const auto i = static_cast<std::size_t>(f);
+        families_[i] = std::make_unique<FamilyHessian>(*model.families[i], items, model);
+    });
 }
 
 std::vector<Launch> Hessian::gather_gradients(Buffer<float4>& positions, Buffer<float>& sums) {

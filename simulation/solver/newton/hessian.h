@@ -40,6 +40,7 @@ private:
     FamilyHessian(ElementFamily& family, const VertexItems& items, const Model& model,
                   const Couplings& couplings);
     BlockList place(const Couplings& couplings, const Strips& strips);
+    void place_row(int v, const Couplings& couplings, BlockList& list);
     Buffer<float>& blocks() { return made_ ? *made_ : *contributions_->constant_blocks(); }
 
     int vertex_count_;

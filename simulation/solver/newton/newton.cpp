@@ -42,9 +42,9 @@ constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles, or friction, which 
 
 /// Sweeps of vertex block descent (sweeps.h).
 struct Smoother {
-    Smoother(Model& model, DescentSubstep& substep)
+    Smoother(Model& model, DescentSubstep& substep, const VertexGraph& graph)
         : contact(substep.contact()),
-          items(make_vertex_layout(model.stencils(), model.strips)),
+          items(make_vertex_layout(graph, model.strips)),
           derivatives(model, items) {
         for (const Phase phase : {kSeamPhase, kInnerPhase}) {
             TaskBody& body = phase == kSeamPhase ? seams : strips;
@@ -73,12 +73,16 @@ struct Smoother {
 class NewtonSolver final : public Solver, public NewtonRefinement {
 public:
     explicit NewtonSolver(Model& model)
+        : NewtonSolver(model, VertexGraph(model.vertex_count(), model.stencils())) {}
+
+    /// graph: of all elements of the model
+    NewtonSolver(Model& model, const VertexGraph& graph)
         : model_(model),
           iterations_(model.scene.solver.iterations),
           substep_(model, kKinds),
           contact_(substep_.contact()),
-          gradients_(model, substep_),
-          smoother_(model, substep_),
+          gradients_(model, substep_, graph),
+          smoother_(model, substep_, graph),
           energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
           kept_("positions.kept", model.positions->count()),
           control_("control", WEFT_CONTROL_SIZE),

@@ -25,7 +25,9 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 class System {
 public:
     explicit System(const std::string& text)
-        : model(parse_scene(text, "test.toml"), warnings), substep(model, 0), cg(model, substep) {}
+        : model(parse_scene(text, "test.toml"), warnings),
+          substep(model, 0),
+          cg(model, substep, VertexGraph(model.vertex_count(), model.stencils())) {}
 
     void crumple(float size) {
         Random random(7);

@@ -25,9 +25,22 @@ TEST(Grouped, KeepsTheOrderWithinAGroup) {
     EXPECT_EQ(text(3), "d");
 }
 
+TEST(Grouped, MayBeFilledInLater) {
+    auto numbers = Grouped<int>::of_sizes(3, [](int group) { return 2 - group; });
+    ASSERT_EQ(numbers.count(), 3);
+    EXPECT_EQ(numbers[0].size(), 2U);
+    EXPECT_EQ(numbers[1].size(), 1U);
+    EXPECT_TRUE(numbers[2].empty());
+    numbers[1][0] = 7;
+    numbers[0][1] = 5;
+    EXPECT_EQ(numbers.values()[1], 5);
+    EXPECT_EQ(numbers.values()[2], 7);
+}
+
 TEST(Grouped, MayHaveNoGroups) {
     EXPECT_EQ(Grouped<int>().count(), 0);
     EXPECT_EQ(Grouped<int>(0, [](const auto&) {}).count(), 0);
+    EXPECT_EQ(Grouped<int>::of_sizes(0, [](int) { return 1; }).count(), 0);
 }
 
 }  // namespace
