@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "kernels/registry.h"
 #include "runtime/device_list.h"
 #include "runtime/opencl/opencl_device.h"
+#include "runtime/opencl/program.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -33,6 +36,26 @@ std::vector<std::unique_ptr<KernelCase>> all_cases(Flavour flavour) {
             cases.push_back(std::move(made));
     }
     return cases;
+}
+
+/// What NVIDIA's compiler refuses, and others take for an extension.
+TEST(ProgramText, DefinesNoMacroOfAnyNumberOfArguments) {
+    const auto cases = all_cases(Flavour::kRandom);
+    std::vector<TaskBody> bodies;
+    for (const auto& one : cases) {
+        bodies.push_back({std::string(one->launch.kernel->name), 0, {one->launch}});
+    }
+    std::vector<const TaskBody*> pointers;
+    for (const TaskBody& body : bodies) pointers.push_back(&body);
+    std::istringstream lines(program_text(pointers, EntryOptions{}).text);
+    int definitions = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_definition = line.starts_with("#define");
+        definitions += is_definition ? 1 : 0;
+        EXPECT_FALSE(is_definition && line.find("...") != std::string::npos) << line;
+        EXPECT_FALSE(line.starts_with("WEFT_KERNEL(")) << line;
+    }
+    EXPECT_GT(definitions, 10);
 }
 
 TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {
