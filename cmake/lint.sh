@@ -70,6 +70,11 @@ TABLE
 # Every kernel as OpenCL C 1.2, without a device. Kernels are the headers on top of platform.h.
 kernels_as_opencl() {
   local clang file as_functions wrong=0
+  clang=$(command -v clang || command -v clang-14) || { echo 'clang is missing' >&2; return 1; }
+  # Apple's clang lacks OpenCL's built-in header; Homebrew's has it.
+  if [ -x "$(brew --prefix 2>/dev/null)/opt/llvm/bin/clang" ]; then
+    clang=$(brew --prefix)/opt/llvm/bin/clang
+  fi
   # What the program's text has as functions already (runtime/opencl/program_text.cpp).
   as_functions=$(mktemp)
   cat >"$as_functions" <<'MACROS'
@@ -77,11 +82,6 @@ kernels_as_opencl() {
 #define WEFT_KERNEL(name, ...) WEFT_INLINE void name(item i, __VA_ARGS__)
 #define WEFT_NARROW_KERNEL WEFT_KERNEL
 MACROS
-  clang=$(command -v clang || command -v clang-14) || { echo 'clang is missing' >&2; return 1; }
-  # Apple's clang lacks OpenCL's built-in header; Homebrew's has it.
-  if [ -x "$(brew --prefix 2>/dev/null)/opt/llvm/bin/clang" ]; then
-    clang=$(brew --prefix)/opt/llvm/bin/clang
-  fi
   for file in $(sources 'kernels/*.h' | xargs grep -l '^#include "kernels/platform.h"'); do
     "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -include "$as_functions" -fsyntax-only -I . \
       -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wdouble-promotion -Werror \

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "kernels/registry.h"
@@ -38,16 +39,26 @@ std::vector<std::unique_ptr<KernelCase>> all_cases(Flavour flavour) {
     return cases;
 }
 
-/// What NVIDIA's compiler refuses, and others take for an extension.
-TEST(ProgramText, DefinesNoMacroOfAnyNumberOfArguments) {
-    const auto cases = all_cases(Flavour::kRandom);
-    std::vector<TaskBody> bodies;
-    for (const auto& one : cases) {
-        bodies.push_back({std::string(one->launch.kernel->name), 0, {one->launch}});
+class ProgramTexts : public testing::Test {
+protected:
+    ProgramTexts() {
+        for (const auto& one : cases_) {
+            bodies_.push_back({std::string(one->launch.kernel->name), 0, {one->launch}});
+        }
+        for (const TaskBody& body : bodies_) pointers_.push_back(&body);
     }
-    std::vector<const TaskBody*> pointers;
-    for (const TaskBody& body : bodies) pointers.push_back(&body);
-    std::istringstream lines(program_text(pointers, EntryOptions{}).text);
+
+    ProgramText text(const EntryOptions& options) const { return program_text(pointers_, options); }
+
+private:
+    std::vector<std::unique_ptr<KernelCase>> cases_ = all_cases(Flavour::kRandom);
+    std::vector<TaskBody> bodies_;
+    std::vector<const TaskBody*> pointers_;
+};
+
+/// What NVIDIA's compiler refuses, and others take for an extension.
+TEST_F(ProgramTexts, DefineNoMacroOfAnyNumberOfArguments) {
+    std::istringstream lines(text({}).text);
     int definitions = 0;
     for (std::string line; std::getline(lines, line);) {
         const bool is_definition = line.starts_with("#define");
@@ -56,6 +67,18 @@ TEST(ProgramText, DefinesNoMacroOfAnyNumberOfArguments) {
         EXPECT_FALSE(line.starts_with("WEFT_KERNEL(")) << line;
     }
     EXPECT_GT(definitions, 10);
+}
+
+TEST_F(ProgramTexts, HaveNoGroupsForMoreParametersThanThereMayBe) {
+    const std::size_t some = 120;
+    const auto count = [&](std::size_t most) {
+        const ProgramText made = text({EntryStyle::kPerGroup, 16, most});
+        return std::ranges::count(made.entries, EntryStyle::kPerGroup, &BodyEntries::style);
+    };
+    EXPECT_EQ(count(0), 0);
+    EXPECT_GT(count(some), 0);
+    EXPECT_LT(count(some), count(1 << 20));
+    EXPECT_EQ(count(1 << 20), std::ssize(text({}).entries));
 }
 
 TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {
