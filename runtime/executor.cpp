@@ -230,6 +230,7 @@ void Executor::note_buffers(std::span<const TaskBody* const> bodies) {
     for (const TaskBody* body : bodies) {
         for (const Launch& launch : body->launches) {
             note(launch.segments.begin);
+            note(launch.gate);
             for (const Argument& argument : launch.arguments) note(argument.buffer);
         }
     }

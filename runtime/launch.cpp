@@ -25,6 +25,19 @@ std::vector<std::shared_ptr<const bool>> detail::lives_of(const Segments& segmen
     return lives;
 }
 
+Launch only_where(Buffer<int>& gate, Launch launch) {
+    const auto strips = static_cast<std::size_t>(launch.segments.strip_count);
+    if (gate.count() < strips) {
+        throw Misuse("buffer '" + gate.name() + "' says where kernel '" +
+                     std::string(launch.kernel->name) + "' has something to do, and has " +
+                     std::to_string(gate.count()) + " values for " + std::to_string(strips) +
+                     " strips");
+    }
+    launch.gate = &gate;
+    launch.alive.push_back(gate.alive());
+    return launch;
+}
+
 void check_variant(const Launch& launch, int lanes) {
     const kernels::KernelInfo& kernel = *launch.kernel;
     if (kernel.form(lanes) != nullptr) return;
@@ -74,8 +87,13 @@ private:
     std::vector<const void*> addresses_;
 };
 
+bool passes_over(const Launch& launch, int strip) {
+    return launch.gate != nullptr && (*launch.gate)[static_cast<std::size_t>(strip)] == 0;
+}
+
 void run_on_host(const Launch& launch, int strip, int colour, int instance, int iteration) {
     check_variant(launch, 1);
+    if (passes_over(launch, strip)) return;
     const HostArguments arguments(launch, instance, iteration);
     const int begin = launch.segments.item(strip, colour);
     const int end = launch.segments.item(strip, colour + 1);

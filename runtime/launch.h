@@ -68,7 +68,15 @@ struct Launch {
     Segments segments;
     /// Whether its buffers and its strip table are still there.
     std::vector<std::shared_ptr<const bool>> alive = {};
+    /// [strips] Where it is given, strips of which it says 0 are passed over; see only_where().
+    Buffer<int>* gate = nullptr;
 };
+
+/// The same launch, of strips alone of which `gate` does not say 0 when the task gets to it: what
+/// kernels have found out before, in other tasks or by launches in front of this one. For work that
+/// has to be done in few places, and not the same in every run of a step.
+/// gate  [strips]; it must outlive the launch. The task reads it. Throws Misuse where it is shorter.
+Launch only_where(Buffer<int>& gate, Launch launch);
 
 /// Throws Misuse where the CPU has no form of the kernel with so many lanes.
 void check_variant(const Launch& launch, int lanes);

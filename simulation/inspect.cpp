@@ -60,6 +60,7 @@ std::vector<Inspection::Buffer> find_buffers(const Solver& solver) {
         for (const Launch& launch : body->launches) {
             for (const Argument& argument : launch.arguments) add(argument.buffer);
             add(launch.segments.begin);
+            add(launch.gate);
         }
     }
     std::vector<Inspection::Buffer> list;

@@ -168,9 +168,23 @@ void call_kernel(std::ostream& out, const Launch& launch, std::size_t number) {
     out << ");";
 }
 
-std::string segment_parameters(std::size_t launch) {
-    const std::string l = std::to_string(launch);
-    return "__global const int* segments" + l + ", int first" + l + ", int colours" + l + ", ";
+std::string segment_parameters(const Launch& launch, std::size_t number) {
+    const std::string l = std::to_string(number);
+    const std::string gate = launch.gate == nullptr ? "" : "__global const int* gate" + l + ", ";
+    return "__global const int* segments" + l + ", int first" + l + ", int colours" + l + ", " +
+           gate;
+}
+
+/// A condition, and that the strip has something to do, where that is asked.
+std::string and_is_open(std::string condition, const Launch& launch, std::size_t number) {
+    if (launch.gate == nullptr) return condition;
+    if (!condition.empty()) condition += " && ";
+    return condition + "gate" + std::to_string(number) + "[strip] != 0";
+}
+
+/// Where items of a strip's colour end: where they begin, if a condition does not hold.
+std::string end_where(const std::string& condition) {
+    return condition.empty() ? "segment[1]" : condition + " ? segment[1] : begin";
 }
 
 /// Points to the first item of the strip's colour; behind it stands where that colour ends.
@@ -184,7 +198,7 @@ std::string segment_of(std::size_t launch) {
 /// WEFT_LANES, so that it drops the path of whole lanes there: PoCL then builds vertex block
 /// descent over tetrahedra in 10 s instead of 24 s.
 void items_of_one(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "        int end = segment[1];\n"
+    out << "        int end = " << end_where(and_is_open("", launch, l)) << ";\n"
         << "        for (; begin + WEFT_LANES <= end; begin += WEFT_LANES) {\n"
         << "            item i = {begin, WEFT_LANES};\n            ";
     call_kernel(out, launch, l);
@@ -198,7 +212,8 @@ void items_of_one(std::ostream& out, const Launch& launch, std::size_t l) {
 /// The same by the work-items of a group, which all see what this colour has written before they go
 /// on. (There may be no colours.)
 void items_of_group(std::ostream& out, const Launch& launch, std::size_t l) {
-    out << "        int end = colour < colours" << l << " ? segment[1] : begin;\n"
+    const std::string is_colour = "colour < colours" + std::to_string(l);
+    out << "        int end = " << end_where(and_is_open(is_colour, launch, l)) << ";\n"
         << "        begin += (int)get_local_id(0) * WEFT_LANES;\n"
         << "        for (; begin < end; begin += (int)get_local_size(0) * WEFT_LANES) {\n"
         << "            item i = {begin, min(end - begin, WEFT_LANES)};\n            ";
@@ -231,7 +246,7 @@ std::string whole_body_entry(const TaskBody& body, EntryStyle style) {
     out << "(";
     for (std::size_t l = 0; l < body.launches.size(); ++l) {
         declare_parameters(out, body.launches[l], l);
-        out << segment_parameters(l);
+        out << segment_parameters(body.launches[l], l);
     }
     out << "int first_strip, int instance, int iteration) {\n"
         << "    int strip = first_strip + (int)get_group_id(0);\n";
@@ -254,10 +269,11 @@ std::string per_colour_entry(const Launch& launch) {
     std::ostringstream out;
     out << "(";
     declare_parameters(out, launch, 0);
-    out << segment_parameters(0) << "int colour, int first_strip, int instance, int iteration) {\n"
+    out << segment_parameters(launch, 0)
+        << "int colour, int first_strip, int instance, int iteration) {\n"
         << "    int strip = first_strip + (int)get_global_id(1);\n"
         << segment_of(0) << "    int first = segment[0] + (int)get_global_id(0) * WEFT_LANES;\n"
-        << "    if (first >= segment[1]) return;\n"
+        << "    if (!(" << and_is_open("first < segment[1]", launch, 0) << ")) return;\n"
         << "    item i = {first, min(segment[1] - first, WEFT_LANES)};\n    ";
     call_kernel(out, launch, 0);
     out << "\n}\n\n";
@@ -270,6 +286,7 @@ std::size_t parameter_bytes(const TaskBody& body) {
     std::size_t bytes = 3 * kNumber;
     for (const Launch& launch : body.launches) {
         bytes += kPointer + 2 * kNumber;  // segments
+        if (launch.gate != nullptr) bytes += kPointer;
         for (const Argument& argument : launch.arguments) {
             if (argument.run_value != RunValue::kNone) continue;
             bytes += argument.buffer != nullptr ? kPointer : kNumber;

@@ -123,10 +123,11 @@ cl_uint OpenClStream::set_launch_arguments(cl::Kernel& kernel, cl_uint index,
 }
 
 cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
-                                            const Segments& segments) {
-    kernel.setArg(index++, memory_of(*segments.begin));
-    kernel.setArg(index++, segments.first);
-    kernel.setArg(index++, segments.colour_count);
+                                            const Launch& launch) {
+    kernel.setArg(index++, memory_of(*launch.segments.begin));
+    kernel.setArg(index++, launch.segments.first);
+    kernel.setArg(index++, launch.segments.colour_count);
+    if (launch.gate != nullptr) kernel.setArg(index++, memory_of(*launch.gate));
     return index;
 }
 
@@ -154,7 +155,7 @@ void OpenClStream::set_arguments(BoundBody& bound) {
         const Launch& launch = bound.body->launches[l];
         Entry& entry = bound.entries[std::min(l, bound.entries.size() - 1)];
         entry.dynamic = set_launch_arguments(entry.kernel, entry.dynamic, launch);
-        entry.dynamic = set_segment_arguments(entry.kernel, entry.dynamic, launch.segments);
+        entry.dynamic = set_segment_arguments(entry.kernel, entry.dynamic, launch);
     }
 }
 

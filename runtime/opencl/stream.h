@@ -77,7 +77,7 @@ private:
     const cl::Buffer& memory_of(const BufferStorage& buffer);
     void set_arguments(BoundBody& bound);
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
-    cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Segments& segments);
+    cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     void bind(std::span<const TaskBody* const> bodies);
     void bind(const cl::Program& program, const TaskBody& body, const BodyEntries& entries);
     Completion* submit_once(const Submission& submission);

@@ -82,21 +82,25 @@ void check_bodies(Work& work) {
 
 /// Each buffer that the task's kernels get has to be among its accesses, or others would not know
 /// to wait for it, and devices with memory of their own would not get it.
+void check_access(const Task& task, const Launch& launch, const BufferStorage* buffer,
+                  bool writes) {
+    if (buffer == nullptr) return;
+    const bool is_said = std::ranges::any_of(task.accesses, [&](const Access& access) {
+        return access.buffer == buffer && (access.writes || !writes);
+    });
+    if (is_said) return;
+    throw Misuse("task body " + quoted(task.body->name) + ": kernel " +
+                 quoted(std::string(launch.kernel->name)) + (writes ? " writes " : " reads ") +
+                 quoted(buffer->name()) + ", and the task does not say so: ." +
+                 (writes ? "updates" : "reads") + "() is missing");
+}
+
 void check_accesses(const Task& task) {
     for (const Launch& launch : task.body->launches) {
+        check_access(task, launch, launch.gate, false);
         for (std::size_t i = 0; i < launch.arguments.size(); ++i) {
-            const BufferStorage* buffer = launch.arguments[i].buffer;
-            if (buffer == nullptr) continue;
-            const bool writes = is_written(launch.kernel->parameters[i]);
-            const bool is_said = std::ranges::any_of(task.accesses, [&](const Access& access) {
-                return access.buffer == buffer && (access.writes || !writes);
-            });
-            if (is_said) continue;
-            throw Misuse("task body " + quoted(task.body->name) + ": kernel " +
-                         quoted(std::string(launch.kernel->name)) +
-                         (writes ? " writes " : " reads ") + quoted(buffer->name()) +
-                         ", and the task does not say so: ." + (writes ? "updates" : "reads") +
-                         "() is missing");
+            check_access(task, launch, launch.arguments[i].buffer,
+                         is_written(launch.kernel->parameters[i]));
         }
     }
 }
@@ -122,6 +126,7 @@ KnownBuffers::KnownBuffers(Work& work) {
     for (const TaskBody* body : work.bodies()) {
         for (const Launch& launch : body->launches) {
             if (stays(launch.segments.begin)) add_strips(*body, launch.segments);
+            if (stays(launch.gate)) add_size(*launch.gate);
             for (const Argument& argument : launch.arguments) {
                 if (stays(argument.buffer)) add_size(*argument.buffer);
             }

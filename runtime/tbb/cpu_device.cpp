@@ -28,6 +28,7 @@ struct BoundLaunch {
     kernels::RangeFunction function;
     kernels::RangeFunction narrow;  ///< for ranges of up to kNarrow items
     Segments segments;
+    Buffer<int>* gate;
     std::vector<Argument> values;
     std::vector<void*> pointers;         ///< storage of pointer parameters
     std::vector<const void*> arguments;  ///< to the parameters' values
@@ -37,6 +38,7 @@ struct BoundLaunch {
         : function(launch.kernel->form(lanes)),
           narrow(launch.kernel->form(std::min(lanes, kNarrow))),
           segments(launch.segments),
+          gate(launch.gate),
           values(launch.arguments),
           pointers(values.size(), nullptr) {
         check_variant(launch, lanes);
@@ -75,6 +77,7 @@ struct BoundLaunch {
     }
 
     void run(int strip, int colour) const {
+        if (gate != nullptr && (*gate)[static_cast<std::size_t>(strip)] == 0) return;
         const int begin = segments.item(strip, colour);
         const int end = segments.item(strip, colour + 1);
         WEFT_ASSERT(0 <= begin && begin <= end);

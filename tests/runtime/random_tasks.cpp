@@ -27,6 +27,7 @@ struct RandomTasks::Body {
     TaskBody body;
     std::vector<int> read, updated;  ///< buffers of points
     bool has_multipliers = false;
+    bool is_gated = false;
 };
 
 RandomTasks::RandomTasks()
@@ -37,7 +38,8 @@ RandomTasks::RandomTasks()
       gravity_("gravity", kInstances + 1),
       ends_("ends", 2 * static_cast<std::size_t>(spring_count())),
       material_("material", ends_.count()),
-      multipliers_("multipliers", ends_.count() / 2) {
+      multipliers_("multipliers", ends_.count() / 2),
+      gate_("gate", kStrips) {
     std::copy(std::begin(kBegin), std::end(kBegin), strip_begin_.data());
     for (int i = 0; i < kPoints; ++i) {
         points_.push_back(
@@ -97,6 +99,15 @@ void RandomTasks::add_bodies() {
                                              static_cast<int>(multipliers_.count()), 10.0f, fresh));
     }
     turns.body.taking_turns = 2;
+    // Three, one of which has nothing to do in some strips.
+    Body& gated = body();
+    gated.updated = {0, 1};
+    gated.read = {2};
+    gated.has_multipliers = gated.is_gated = true;
+    gated.body = {"", 0, {turns.body.launches[0], only_where(gate_, turns.body.launches[1])}, 2};
+    gated.body.launches.push_back(
+        only_where(gate_, launch(kernels::predict, strips_, *points_[0], *points_[1], *points_[2],
+                                 gravity_, kH, kInstance)));
     // Gravity by the task's iteration instead of the instance, and a launch behind the turns.
     Body& falls = body();
     falls.updated = {0, 1};
@@ -121,6 +132,7 @@ void RandomTasks::fill(Random& random) {
     for (float4& g : gravity_.span()) g = random.point(1.0f);
     for (float& value : material_.span()) value = random.real(0.1f, 1.0f);
     for (float& value : multipliers_.span()) value = random.real(-0.1f, 0.1f);
+    for (int& flag : gate_.span()) flag = random.integer(0, 2);
 }
 
 Step RandomTasks::make_step(Random& random, int task_count) {
@@ -138,6 +150,7 @@ Step RandomTasks::make_step(Random& random, int task_count) {
             task.reads(*points_[static_cast<std::size_t>(p)], kBegin[first], kBegin[end]);
         }
         if (body.has_multipliers) task.updates(multipliers_, body.body.launches[0].segments);
+        if (body.is_gated) task.reads(gate_, first, end);
     }
     step.seal();
     return step;
@@ -150,7 +163,7 @@ std::vector<const TaskBody*> RandomTasks::bodies() const {
 }
 
 std::vector<BufferStorage*> RandomTasks::buffers() {
-    std::vector<BufferStorage*> list{&gravity_, &material_, &multipliers_};
+    std::vector<BufferStorage*> list{&gravity_, &material_, &multipliers_, &gate_};
     for (const auto& buffer : points_) list.push_back(buffer.get());
     return list;
 }
@@ -168,6 +181,7 @@ void RandomTasks::run_serially(const Task& task, int strip, int instance) {
     const auto& launches = task.body->launches;
     const auto run = [&](const Launch& launch, int colour) {
         const Segments& s = launch.segments;
+        if (launch.gate != nullptr && (*launch.gate)[static_cast<std::size_t>(strip)] == 0) return;
         run_on_host(launch, launch.kernel->scalar, s.item(strip, colour), s.item(strip, colour + 1),
                     instance, task.iteration);
     };

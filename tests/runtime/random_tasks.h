@@ -44,6 +44,7 @@ private:
     Buffer<float4> gravity_;
     Buffer<int> ends_;
     Buffer<float> material_, multipliers_;
+    Buffer<int> gate_;  ///< [strips] 0: a launch passes over it
     std::vector<std::unique_ptr<Body>> bodies_;
 };
 

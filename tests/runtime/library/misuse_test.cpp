@@ -306,6 +306,15 @@ TEST(Misuse, AStageThatDoesNotSayWhatItsKernelsUse) {
     });
     EXPECT_NE(read.find("'spread' reads 'losses'"), std::string::npos) << read;
     const std::string none = runner_on([](OwnWork&, Stage) {});
+    OwnWork gated;
+    StripWork work(OwnWork::kStrips);
+    Buffer<int> gate("gate", OwnWork::kStrips);
+    work.add("there", only_where(gate, gated.spread(gated.now, gated.next)))
+        .reads(gated.now, gated.strips, 1)
+        .reads(gated.losses)
+        .updates(gated.next, gated.strips);
+    expect_message([&] { Runner(work, {.devices = "cpu/1"}); },
+                   {"'spread' reads 'gate'", ".reads() is missing"});
     EXPECT_NE(none.find("the task does not say so"), std::string::npos) << none;
 }
 
@@ -315,6 +324,13 @@ TEST(Misuse, AStageThatReadsWhatItsNeighboursWrite) {
         stage.reads(own.next, own.strips, 1).updates(own.next, own.strips);
     });
     EXPECT_NE(told.find("reads other strips of 'next'"), std::string::npos) << told;
+}
+
+TEST(Misuse, AGateForFewerStripsThanTheLaunchHas) {
+    OwnWork own;
+    Buffer<int> gate("gate", OwnWork::kStrips - 1);
+    expect_message([&] { only_where(gate, own.spread(own.now, own.next)); },
+                   {"'gate'", "'spread'", std::to_string(OwnWork::kStrips) + " strips"});
 }
 
 TEST(Misuse, BuffersAndStripTablesThatAreGoneBeforeTheRunner) {

@@ -129,6 +129,23 @@ TEST(OwnKernels, LaunchesThatTakeTurnsDoAllColours) {
     EXPECT_NE(own.next[1].heat, 0.0f);
 }
 
+TEST(OwnKernels, ALaunchPassesOverStripsThatItsGateSays) {
+    OwnWork own, all;
+    Buffer<int> gate("gate", OwnWork::kStrips);
+    gate[1] = 1;
+    const TaskBody gated{"gated", 0, {only_where(gate, own.spread(own.now, own.next))}};
+    const TaskBody plain{"plain", 0, {all.spread(all.now, all.next)}};
+    for (int strip = 0; strip < OwnWork::kStrips; ++strip) {
+        run_on_host(gated, strip);
+        run_on_host(plain, strip);
+    }
+    for (int c = 0; c < OwnWork::kCells; ++c) {
+        const bool is_open = own.strips.item(1) <= c && c < own.strips.item(2);
+        const auto cell = static_cast<std::size_t>(c);
+        ASSERT_EQ(own.next[cell].heat, is_open ? all.next[cell].heat : 0.0f) << c;
+    }
+}
+
 TEST(OwnWork, PartsOfAFrameAreAllOfItsTime) {
     OwnWork own;
     Runner runner(own.work, {.devices = "cpu/1"});
