@@ -166,9 +166,10 @@ WEFT_NARROW_KERNEL(enclose_slants, WEFT_GLOBAL const int* child_begin,
 
 /// Whether one of the numbers from first to last is not 0; none is negative.
 WEFT_INLINE int any_in_range(WEFT_GLOBAL const int* numbers, int first, int last) {
-    int sum = 0;
-    for (int n = first; n <= last; ++n) sum += numbers[n];
-    return sum > 0;
+    if (numbers[first] > 0 || numbers[last] > 0) return 1;
+    for (int n = first + 1; n < last; ++n)
+        if (numbers[n] > 0) return 1;
+    return 0;
 }
 
 /// Boxes of triangles and of edges, where their patch is near another one or itself.

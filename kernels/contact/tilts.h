@@ -15,6 +15,9 @@ WEFT_KERNELS_BEGIN
 #define WEFT_DRIFT_SHARE 0.25f
 // and a vertex may go so far from where inertia led it. 2 * 0.125 + 0.25 + 2 * 0.75 = 2.
 #define WEFT_LOOSE_SHARE 0.75f
+// What may be used up of it before a patch that was flat is looked at again. No more than this,
+// because what is kept has no drift to compare with that of a patch beside it which goes farther.
+#define WEFT_WORN_SHARE 0.75f
 
 /// A corner of a triangle each, in column-major tables.
 WEFT_INLINE real4 gather_corner(WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const int* corners,
@@ -128,53 +131,116 @@ WEFT_INLINE real_lead lead_of(WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL con
     return lead;
 }
 
+/// How much a substep uses up of a patch's quiet: how far its vertices have moved against each
+/// other since the one before (half of it by each), and by how much one of them gets farther [m].
+/// rim, count  its vertices in `rims`; rim is read in any case
+WEFT_INLINE real wear_of(WEFT_GLOBAL const float4* strides, WEFT_GLOBAL const int* rims, whole rim,
+                         whole count) {
+    const int longest = largest_whole(count);
+    real_box box = empty_box();
+    real growth = splat(-1e30f);
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const integer entry = address(on ? rim + splat_whole(k) : rim);
+        const real4 stride = gather4(strides, address(gather_whole(rims, entry)));
+        box = united(box, box_around(xyz(stride), splat(0.0f)));
+        growth = larger(stride.w, growth);
+    }
+    const real wear = splat(0.5f) * length3(subtract(box.high, box.low)) + growth;
+    return count > splat_whole(0) ? wear : splat(0.0f);
+}
+
+/// What a look at a patch's normals and ways says.
+typedef struct {
+    real4 tilt, drift;  ///< see tilt_patches
+    real reach;         ///< how far a vertex of one that is quiet by itself may get [m]; else 0
+} patch_look;
+
+/// asked   1 for patches to look at, 0 for those of which nobody needs to know
+/// rim, rim_count   their vertices in `rims`
+/// others  as in tilt_patches
+WEFT_INLINE patch_look look_at_patches(WEFT_GLOBAL const float4* anchors,
+                                       WEFT_GLOBAL const float4* goals, int do_foresee,
+                                       WEFT_GLOBAL const int* face_begin,
+                                       WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* rims,
+                                       whole rim, whole rim_count, mask is_slow, real limit,
+                                       whole asked, int face_count, item i) {
+    const real zero = splat(0.0f);
+    const whole none = splat_whole(0);
+    const whole face = load_whole(face_begin, i);
+    const whole faces = load_whole(face_begin, column(i, 1, 1)) - face;
+    // What is not quiet by itself need not be looked at, if nothing is foreseen.
+    const int looks = do_foresee != 0 || any_item(is_slow);
+    const real_lead lead = lead_of(anchors, goals, rims, rim, looks ? rim_count * asked : none,
+                                   do_foresee, splat(WEFT_SPREAD_SHARE) * limit);
+    const real still = lead.reach < limit ? splat(1.0f) : zero;
+    const real by_itself = is_slow ? still : zero;
+    const real quiet_by = by_itself > zero ? by_itself : lead.alike * splat(2.0f);
+    const whole may_be = quiet_by > zero ? asked : none;
+    const real4 facing =
+        facing_of(anchors, corners, first_of(face, faces), faces * may_be, face_count);
+    const real flat = quiet_by * facing.w;
+    const mask is_flat = flat > zero;
+    const real3 mean =
+        make3(is_flat ? facing.x : zero, is_flat ? facing.y : zero, is_flat ? facing.z : zero);
+    patch_look look = {with_w(mean, flat), with_w(lead.drift, splat(WEFT_DRIFT_SHARE) * limit),
+                       flat == splat(1.0f) ? lead.reach : zero};
+    return look;
+}
+
 /// Which way patches face, and whether each is flat and quiet: its normals lie within 30 degrees of
 /// their mean, and no vertex gets so far that a triangle could turn over; or all are led so alike
 /// by their inertia that none does, as long as they follow it. (quiet.h looks whether they did.)
+///
+/// No triangle turns over as long as no vertex gets that far from where it was when normals were
+/// looked at, but for a translation of all. So what was flat and quiet by itself then stays so
+/// until most of it may have been used up, and only a frame's first substep looks at all patches.
 /// goals       [vertices] xyz: where inertia, or the scene, leads [m]
+/// strides     [vertices] as begin_contacts leaves them
 /// foresees    [1] 0: nothing counts but how far vertices may get
 /// face_begin  [items + 1] where the faces of each begin (Surface::faces)
 /// corners     [3 * face_count] column-major: model vertices
 /// rim_begin, rims   [items + 1], [entries] the vertices of these faces, each once
 /// high        [items] as enclose_patches leaves it
 /// quiet       [items] how far vertices may get [m]
+/// worn        [items] written: how far they may get by the substep's end from where they were at
+///             the last look [m]
 /// tilts       [items] written: where it is flat and quiet xyz = the mean of the normals, of length
 ///             1, and w = 1, or 2 where it is quiet by inertia alone; else 0
 /// drifts      [items] written: xyz: the mean of the ways [m], w: how far apart ways of patches
-///             beside it may be [m]
+///             beside it may be [m]; both 0 where nobody looked
 WEFT_NARROW_KERNEL(tilt_patches, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* goals,
-                   WEFT_GLOBAL const int* foresees, WEFT_GLOBAL const int* face_begin,
-                   WEFT_GLOBAL const int* corners, WEFT_GLOBAL const int* rim_begin,
-                   WEFT_GLOBAL const int* rims, WEFT_GLOBAL const float4* high,
-                   WEFT_GLOBAL const float* quiet, WEFT_GLOBAL float4* tilts,
-                   WEFT_GLOBAL float4* drifts, int face_count) {
+                   WEFT_GLOBAL const float4* strides, WEFT_GLOBAL const int* foresees,
+                   WEFT_GLOBAL const int* face_begin, WEFT_GLOBAL const int* corners,
+                   WEFT_GLOBAL const int* rim_begin, WEFT_GLOBAL const int* rims,
+                   WEFT_GLOBAL const float4* high, WEFT_GLOBAL const float* quiet,
+                   WEFT_GLOBAL float* worn, WEFT_GLOBAL float4* tilts, WEFT_GLOBAL float4* drifts,
+                   int face_count, int instance) {
     const real zero = splat(0.0f);
-    const real one = splat(1.0f);
     const whole none = splat_whole(0);
-    const whole rim = load_whole(rim_begin, i);
-    const whole rim_count = load_whole(rim_begin, column(i, 1, 1)) - rim;
-    const whole face = load_whole(face_begin, i);
-    const whole faces = load_whole(face_begin, column(i, 1, 1)) - face;
+    const whole one = splat_whole(1);
+    const whole begin = load_whole(rim_begin, i);
+    const whole rim_count = load_whole(rim_begin, column(i, 1, 1)) - begin;
+    const whole rim = first_of(begin, rim_count);
     const real limit = load(quiet, i);
-    // What is not quiet by itself need not be looked at, if nothing is foreseen.
-    const int do_foresee = foresees[0];
-    const mask is_slow = load4(high, i).w < limit;
-    const int looks = do_foresee != 0 || any_item(is_slow);
-    const real_lead lead =
-        lead_of(anchors, goals, rims, first_of(rim, rim_count), looks ? rim_count : none,
-                do_foresee, splat(WEFT_SPREAD_SHARE) * limit);
-    const real still = lead.reach < limit ? one : zero;
-    const real by_itself = is_slow ? still : zero;
-    const real quiet_by = by_itself > zero ? one : lead.alike * splat(2.0f);
-    const mask may_be = quiet_by > zero;
-    const real4 facing =
-        facing_of(anchors, corners, first_of(face, faces), may_be ? faces : none, face_count);
-    const real flat = quiet_by * facing.w;
-    const mask is_flat = flat > zero;
-    const real3 mean =
-        make3(is_flat ? facing.x : zero, is_flat ? facing.y : zero, is_flat ? facing.z : zero);
-    store4(tilts, i, with_w(mean, flat));
-    store4(drifts, i, with_w(lead.drift, splat(WEFT_DRIFT_SHARE) * limit));
+    const real4 before = load4(tilts, i);
+    const whole was_flat = instance == 0 ? none : (before.w == splat(1.0f) ? one : none);
+    real wear = zero;
+    if (any_item(was_flat > none)) {
+        wear = load(worn, i) + wear_of(strides, rims, rim, rim_count * was_flat);
+    }
+    const whole stays = wear < splat(WEFT_WORN_SHARE) * limit ? was_flat : none;
+    const whole asked = one - stays;
+    const mask is_asked = asked > none;
+    patch_look look = {before, {zero, zero, zero, zero}, zero};
+    if (any_item(is_asked)) {
+        look = look_at_patches(anchors, goals, foresees[0], face_begin, corners, rims, rim,
+                               rim_count, load4(high, i).w < limit, limit, asked, face_count, i);
+    }
+    store(worn, i, is_asked ? look.reach : wear);
+    store4_where(is_asked, tilts, i, look.tilt);
+    const real kept = is_asked ? splat(1.0f) : zero;
+    store4(drifts, i, with_w(scale(xyz(look.drift), kept), look.drift.w * kept));
 }
 
 /// Which way groups of patches face, and whether each is flat and quiet: all of its patches are, by

@@ -107,8 +107,9 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
 /// rows       [2 * vertices] column-major: where the vertex' planes start, room for how many
 /// counts     [vertices] how many there are
 /// planes     [entries] xyz: n, w: how far the anchor lies before where the plane ends [m]
-/// cut        [vertices] written: 1 where the vertex was taken back by more than a thousandth of its
-///            way, 2 where it found no place that all its planes and its ball allow, else 0
+/// cut        [vertices] written by what holds all: 1 where the vertex was taken back by more than a
+///            thousandth of its way, 2 where it found no place that all its planes and its ball
+///            allow, else 0
 /// soft       what stays between plane and vertex where only that has to yield [m]
 /// hard       what stays at least [m]
 /// all_from   the iteration from which on vertices without planes are held in their balls, too:
@@ -121,10 +122,7 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
     const real nearest = load(least, i);
     const mask has_planes = nearest < splat(WEFT_NO_PLANE);
     const int all = iteration >= all_from;
-    if (!all && !any_item(has_planes)) {
-        store_whole(cut, i, splat_whole(0));
-        return;
-    }
+    if (!all && !any_item(has_planes)) return;
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const real4 x = load4(positions, i);
@@ -165,7 +163,7 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
         const mask is_lost = both(out, beyond > zero);
         result = is_lost ? splat_whole(2) : (is_cut ? splat_whole(1) : result);
     }
-    store_whole(cut, i, result);
+    if (all) store_whole(cut, i, result);
 }
 
 WEFT_KERNELS_END

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernels/contact/gates.h"
 #include "kernels/contact/near.h"
 #include "kernels/contact/pairs.h"
 #include "kernels/contact/tilts.h"
@@ -61,12 +62,16 @@ ContactPairs::ContactPairs(Surface surface, const std::vector<Vec3>& rest, Buffe
       halo_(0.5f * settings.thickness),
       anchors_(anchors),
       goals_(goals),
+      strides_(strides),
       strips_(strips),
       points_("contact.points", size_of(s_.vertices.items)),
+      worn_("contact.worn", size_of(s_.patches)),
       tilts_("contact.tilts", size_of(s_.patches)),
       drifts_("contact.drifts", size_of(s_.patches)),
       group_tilts_("contact.groups.tilts", size_of(s_.groups.items)),
       group_opens_("contact.groups.opens", size_of(s_.groups.items)),
+      near_strips_("contact.near_strips", size_of(s_.roots.items)),
+      awake_("contact.awake", size_of(s_.roots.items)),
       patch_low_("contact.patches.low", size_of(s_.patches)),
       patch_high_("contact.patches.high", size_of(s_.patches)),
       slant_low_("contact.patches.slant_low", 2 * size_of(s_.patches)),
@@ -108,9 +113,9 @@ void ContactPairs::make_boxes_body(int kind) {
          launch_on(kernels::enclose_patches, s_.patches, anchors_, s_.hulls.begin, s_.hulls.items,
                    patch_low_, patch_high_, slant_low_, slant_high_, margin,
                    surface_.patch_count()),
-         launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, foresees_, s_.face_begin,
-                   s_.face_corners, s_.rims.begin, s_.rims.items, patch_high_, s_.quiet, tilts_,
-                   drifts_, surface_.faces.begin.back()),
+         launch_on(kernels::tilt_patches, s_.patches, anchors_, goals_, strides_, foresees_,
+                   s_.face_begin, s_.face_corners, s_.rims.begin, s_.rims.items, patch_high_,
+                   s_.quiet, worn_, tilts_, drifts_, surface_.faces.begin.back(), kInstance),
          launch_on(kernels::tilt_groups, s_.groups.items, s_.groups.children, tilts_, group_tilts_),
          candidates_.enclose(), unite(s_.groups, patch_low_, patch_high_),
          launch_on(kernels::enclose_slants, s_.groups.items, s_.groups.children, slant_low_,
@@ -141,11 +146,15 @@ void ContactPairs::make_near_body(int kind) {
                    surface_.patch_count(), s_.groups.items.count(), surface_.strip_count(),
                    candidates_.margin(), settings_.self ? 1 : 0, kInstance),
          candidates_.check(near_, {patch_low_, patch_high_, slant_low_, slant_high_}),
-         launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
-                   s_.triangles.patches, table.counts(), triangle_low_, triangle_high_, margin, 3,
-                   surface_.triangle_count()),
-         launch_on(kernels::enclose_primitives, s_.edges.items, points_, s_.ends, s_.edges.patches,
-                   table.counts(), edge_low_, edge_high_, margin, 2, surface_.edge_count())}};
+         launch_on(kernels::find_awake_strips, s_.roots.items, s_.patches.begin, table.counts(),
+                   candidates_.kept(), candidates_.stale(), near_strips_, awake_, kInstance),
+         only_where(awake_,
+                    launch_on(kernels::enclose_primitives, s_.triangles.items, points_, s_.corners,
+                              s_.triangles.patches, table.counts(), triangle_low_, triangle_high_,
+                              margin, 3, surface_.triangle_count())),
+         only_where(awake_, launch_on(kernels::enclose_primitives, s_.edges.items, points_, s_.ends,
+                                      s_.edges.patches, table.counts(), edge_low_, edge_high_,
+                                      margin, 2, surface_.edge_count()))}};
 }
 
 void ContactPairs::make_pairs_body(int kind) {
@@ -159,12 +168,14 @@ void ContactPairs::add_collecting(std::vector<Launch>& launches) {
     const auto add = [&](auto kernel, SurfaceBuffers::Patched& items, PairTable& candidates,
                          SurfaceBuffers::Patched& others, SurfaceBuffers::Ints& corners,
                          Buffer<float4>& low, Buffer<float4>& high, auto... numbers) {
-        launches.push_back(launch_on(
-            kernel, items.items, points_, items.patches, near_.table.rows(), near_.table.counts(),
-            near_.others, candidates_.stale(), candidates_.slacks(), patch_low_, patch_high_,
-            others.begin, corners, s_.knots, low, high, candidates.table.rows(),
-            candidates.table.counts(), candidates.table.needs(), candidates.others, numbers...,
-            std::max(halo_, settings_.least), candidates_.spare(), kInstance));
+        launches.push_back(only_where(
+            awake_,
+            launch_on(kernel, items.items, points_, items.patches, near_.table.rows(),
+                      near_.table.counts(), near_.others, candidates_.stale(), candidates_.slacks(),
+                      patch_low_, patch_high_, others.begin, corners, s_.knots, low, high,
+                      candidates.table.rows(), candidates.table.counts(), candidates.table.needs(),
+                      candidates.others, numbers..., std::max(halo_, settings_.least),
+                      candidates_.spare(), kInstance)));
     };
     add(kernels::collect_triangles, s_.vertices, candidates_.triangles(), s_.triangles, s_.corners,
         triangle_low_, triangle_high_, surface_.vertex_count(), surface_.triangle_count(), halo_);
@@ -178,10 +189,10 @@ void ContactPairs::add_collecting(std::vector<Launch>& launches) {
 void ContactPairs::add_choosing(std::vector<Launch>& launches) {
     const auto add = [&](auto kernel, SurfaceBuffers::Patched& items, PairTable& candidates,
                          auto&&... values) {
-        launches.push_back(launch_on(kernel, items.items, points_, items.patches,
-                                     near_.table.counts(), candidates_.kept(), candidates_.stale(),
-                                     candidates.table.rows(), candidates.table.counts(),
-                                     candidates.others, values...));
+        launches.push_back(only_where(
+            awake_, launch_on(kernel, items.items, points_, items.patches, near_.table.counts(),
+                              candidates_.kept(), candidates_.stale(), candidates.table.rows(),
+                              candidates.table.counts(), candidates.others, values...)));
     };
     add(kernels::find_triangles, s_.vertices, candidates_.triangles(), s_.corners, s_.beyond,
         s_.owned, s_.ring.begin, s_.ring.items, vt_.table.rows(), vt_.table.counts(),
@@ -206,6 +217,7 @@ void ContactPairs::add_boxes(Step& step, const Part& part, RegionId region) {
     const auto [first_patch, last_patch] = range(s_.patches, part.begin, part.end);
     candidates_.add_enclose_accesses(adding, strips_.item(part.begin), strips_.item(next),
                                      first_patch, last_patch);
+    updates(adding, worn_, s_.patches, part);
     updates(adding, tilts_, s_.patches, part);
     updates(adding, drifts_, s_.patches, part);
     updates(adding, group_tilts_, s_.groups.items, part);
@@ -248,6 +260,7 @@ void ContactPairs::add_near(Step& step, const Part& part, RegionId region) {
     fills(adding, near_, s_.patches, part);
     const auto [first_patch, last_patch] = range(s_.patches, part.begin, part.end);
     candidates_.add_check_accesses(adding, first_patch, last_patch);
+    adding.updates(near_strips_, part.begin, part.end).updates(awake_, part.begin, part.end);
     updates(adding, triangle_low_, s_.triangles.items, part);
     updates(adding, triangle_high_, s_.triangles.items, part);
     updates(adding, edge_low_, s_.edges.items, part);
@@ -264,7 +277,8 @@ void ContactPairs::add_pairs(Step& step, const Part& part, RegionId region) {
     reads_all(adding, triangle_high_, s_.triangles.items);
     reads_all(adding, edge_low_, s_.edges.items);
     reads_all(adding, edge_high_, s_.edges.items);
-    adding.reads(near_.table.counts(), first, last)
+    adding.reads(awake_, part.begin, part.end)
+        .reads(near_.table.counts(), first, last)
         .reads(near_.others, near_.table.entries())
         .reads(candidates_.kept(), first, last)
         .reads(candidates_.stale(), first, last)

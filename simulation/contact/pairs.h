@@ -53,9 +53,11 @@ public:
     const Surface& surface() const { return surface_; }
     const PairSettings& settings() const { return settings_; }
     Table& near() { return near_; }  ///< of patches: patches
-    Table& vt() { return vt_; }      ///< of vertices: triangles
-    Table& tv() { return tv_; }      ///< of triangles: vertices
-    Table& ee() { return ee_; }      ///< of edges: edges
+    /// [strips] 1 where a patch has one near to it, else 0; the task `near` writes them.
+    Buffer<int>& near_strips() { return near_strips_; }
+    Table& vt() { return vt_; }  ///< of vertices: triangles
+    Table& tv() { return tv_; }  ///< of triangles: vertices
+    Table& ee() { return ee_; }  ///< of edges: edges
     PairCandidates& candidates() { return candidates_; }
     /// The surface, and its items by strips.
     SurfaceBuffers& buffers() { return s_; }
@@ -79,11 +81,14 @@ private:
     SurfaceBuffers s_;
     PairSettings settings_;
     float halo_;  ///< half of the thickness
-    Buffer<float4>&anchors_, &goals_;
+    Buffer<float4>&anchors_, &goals_, &strides_;
     Segments strips_;
     Buffer<int> foresees_{"contact.foresees", 1};
-    Buffer<float4> points_, tilts_, drifts_, group_tilts_;
+    Buffer<float4> points_;
+    Buffer<float> worn_;
+    Buffer<float4> tilts_, drifts_, group_tilts_;
     Buffer<int> group_opens_;
+    Buffer<int> near_strips_, awake_;  ///< [strips] kernels/contact/gates.h
     Buffer<float4> patch_low_, patch_high_, slant_low_, slant_high_;
     Buffer<float4> group_slant_low_, group_slant_high_;
     Buffer<float4> triangle_low_, triangle_high_, edge_low_, edge_high_;

@@ -16,25 +16,29 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
 }
 
 Launch ContactProjection::share(int ahead) {
-    return launch(kernels::share_masses, model_.vertices(), *model_.positions, rows_.table.counts(),
-                  least_, snapshots_, model_.vertex_count(), kIteration, ahead);
+    return only_where(rows_.touching, launch(kernels::share_masses, model_.vertices(),
+                                             *model_.positions, rows_.table.counts(), least_,
+                                             snapshots_, model_.vertex_count(), kIteration, ahead));
 }
 
 void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
     launches.push_back(share(0));
 }
 
-void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
-                                              int last) {
+void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip,
+                                              int end_strip) {
+    const int first = model_.vertices().item(first_strip);
+    const int last = model_.vertices().item(end_strip);
     const int half = iteration % 2 * model_.vertex_count();
-    task.reads(rows_.table.counts(), first, last)
+    task.reads(rows_.touching, first_strip, end_strip)
+        .reads(rows_.table.counts(), first, last)
         .reads(least_, first, last)
         .updates(snapshots_, half + first, half + last);
 }
 
 void ContactProjection::add_project(std::vector<Launch>& launches) {
-    launches.push_back(push());
-    if (rubs_ != nullptr) launches.push_back(rub());
+    launches.push_back(only_where(rows_.touching, push()));
+    if (rubs_ != nullptr) launches.push_back(only_where(rows_.touching, rub()));
 }
 
 Launch ContactProjection::push() {

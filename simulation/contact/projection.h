@@ -14,7 +14,7 @@ public:
 
     /// Behind the elements.
     void add_snapshot(std::vector<Launch>& launches);
-    void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
+    void add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
     /// In a task of its own behind that, over strips [first_strip, end_strip): contacts push, and
     /// rub where there is friction.

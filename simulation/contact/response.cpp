@@ -10,6 +10,7 @@
 #include "kernels/contact/begin.h"
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
+#include "kernels/contact/gates.h"
 #include "kernels/contact/quiet.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/truncate.h"
@@ -66,6 +67,8 @@ void fill_columns(const std::vector<std::array<int, N>>& items, const Surface& s
         }
     }
 }
+
+std::size_t strips_of(const Model& model) { return static_cast<std::size_t>(model.strips.count()); }
 
 /// The least of what its patches say; huge inside of bodies.
 std::vector<float> quiet_of_vertices(const Surface& surface, const Buffer<float>& patches,
@@ -126,6 +129,9 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       quiet_("contact.quiet_vertices", model.positions->count()),
       incidence_(pairs_.surface()),
       busy_("contact.busy", pairs_.buffers().bodies.count()),
+      touching_("contact.touching", strips_of(model)),
+      meeting_("contact.meeting", strips_of(model)),
+      filling_("contact.filling", strips_of(model)),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
       planes_table_("contact.planes", model.vertices(), first_room(model, sizeof(float4))),
       contacts_("contact.contacts", model.vertices(), first_room(model, 5 * sizeof(float4))),
@@ -163,31 +169,37 @@ void ContactResponse::make_fill() {
     fill_ = {
         "contacts",
         fill_kind_,
-        {launch(kernels::find_busy_patches, surface.patches.segments,
-                static_cast<Buffer<int>&>(surface.around.begin),
-                static_cast<Buffer<int>&>(surface.around.items), pairs_.near().table.counts(),
-                busy_, kInstance),
-         launch(kernels::fill_contacts, surface.vertices.items.segments, anchors_, goals_,
-                stiffness_, incidence_.apexes, incidence_.triangle_begin, incidence_.triangle_list,
-                incidence_.edge_begin, incidence_.edge_list, incidence_.triangles, incidence_.edges,
-                static_cast<Buffer<int>&>(surface.vertices.patches), busy_, vt.table.rows(),
-                vt.table.counts(), vt.others, tv.table.rows(), tv.table.counts(), tv.others,
-                ee.table.rows(), ee.table.counts(), ee.others, planes_table_.rows(),
-                planes_table_.counts(), planes_table_.needs(), planes_, contacts_.rows(),
-                contacts_.counts(), contacts_.needs(), corner0_, corner1_, corner2_, corner3_,
-                normals_, weights_, measures_, least_, nearest_, model_.vertex_count(),
-                pairs_.surface().triangle_count(), pairs_.surface().edge_count(), range_,
-                kSoftSlack * floor_, factor, kInstance),
-         snapshot(*model_.positions, 0), snapshot(*model_.positions, 1),
-         launch(kernels::find_strays, surface.patches.segments, pairs_.patch_low(),
-                pairs_.patch_high(), static_cast<Buffer<int>&>(surface.bodies), motion_.carried(),
-                motion_.chunk_of(), motion_.fences(), motion_.strays(), motion_.body_count(),
-                motion_.chunk_count(), kInstance)}};
-    if (sticking_) sticking_->add_recall(fill_.launches);
-    if (!model_.scene.contact->planes) return;
-    fill_.launches.insert(fill_.launches.begin() + 2,
-                          truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
-    ++showing_;
+        {launch(kernels::find_touching_strips, surface.roots.items.segments, pairs_.near_strips(),
+                touching_, meeting_, filling_, model_.strips.count(), kInstance),
+         only_where(filling_, launch(kernels::find_busy_patches, surface.patches.segments,
+                                     static_cast<Buffer<int>&>(surface.around.begin),
+                                     static_cast<Buffer<int>&>(surface.around.items),
+                                     pairs_.near().table.counts(), busy_, kInstance)),
+         only_where(
+             filling_,
+             launch(kernels::fill_contacts, surface.vertices.items.segments, anchors_, goals_,
+                    stiffness_, incidence_.apexes, incidence_.triangle_begin,
+                    incidence_.triangle_list, incidence_.edge_begin, incidence_.edge_list,
+                    incidence_.triangles, incidence_.edges,
+                    static_cast<Buffer<int>&>(surface.vertices.patches), busy_, vt.table.rows(),
+                    vt.table.counts(), vt.others, tv.table.rows(), tv.table.counts(), tv.others,
+                    ee.table.rows(), ee.table.counts(), ee.others, planes_table_.rows(),
+                    planes_table_.counts(), planes_table_.needs(), planes_, contacts_.rows(),
+                    contacts_.counts(), contacts_.needs(), corner0_, corner1_, corner2_, corner3_,
+                    normals_, weights_, measures_, least_, nearest_, model_.vertex_count(),
+                    pairs_.surface().triangle_count(), pairs_.surface().edge_count(), range_,
+                    kSoftSlack * floor_, factor, kInstance))}};
+    auto& launches = fill_.launches;
+    if (model_.scene.contact->planes)
+        launches.push_back(truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
+    showing_ = launches.size();
+    for (const int ahead : {0, 1}) launches.push_back(snapshot(*model_.positions, ahead));
+    launches.push_back(launch(kernels::find_strays, surface.patches.segments, pairs_.patch_low(),
+                              pairs_.patch_high(), static_cast<Buffer<int>&>(surface.bodies),
+                              motion_.carried(), motion_.chunk_of(), motion_.fences(),
+                              motion_.strays(), motion_.body_count(), motion_.chunk_count(),
+                              kInstance));
+    if (sticking_) sticking_->add_recall(launches);
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {
@@ -251,6 +263,9 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     for (RowTable* table : {&planes_table_, &contacts_}) {
         task.updates(table->counts(), first, last).updates(table->needs(), first, last);
     }
+    for (Buffer<int>* gate : {&touching_, &meeting_, &filling_}) {
+        task.updates(*gate, region.begin, region.end);
+    }
     task.updates(planes_, planes_table_.entries());
     for (Buffer<int>* corner : {&corner0_, &corner1_, &corner2_, &corner3_}) {
         task.updates(*corner, contacts_.entries());
@@ -276,6 +291,7 @@ void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region
     const int from = std::max(region.begin - 1, 0);
     const Segments& patches = pairs_.buffers().patches.segments;
     task.reads(pairs_.near().table.counts(), patches.item(from), patches.item(region.end));
+    task.reads(pairs_.near_strips(), from, std::min(region.end + 1, model_.strips.count()));
     const auto add = [&](ContactPairs::Table& pairs, const Segments& items) {
         task.reads(pairs.table.counts(), items.item(from), items.item(region.end))
             .reads(pairs.others, pairs.table.entries(), from, region.end);
@@ -285,24 +301,25 @@ void ContactResponse::add_pair_accesses(Step::Adding& task, const Region& region
     add(pairs_.ee(), pairs_.buffers().edges.items.segments);
 }
 
-Launch ContactResponse::gather(const Segments& segments, Buffer<float4>& positions,
-                               VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, positions, snapshots_, model_.vertex_count(), items, sums);
+Launch ContactResponse::gather(Phase phase, Buffer<float4>& positions, VertexItems& items,
+                               Buffer<float>& sums) {
+    return gather_from(phase, positions, snapshots_, model_.vertex_count(), items, sums);
 }
 
 /// No second half, and no way from there.
-Launch ContactResponse::gather_at(const Segments& segments, Buffer<float4>& shared,
-                                  VertexItems& items, Buffer<float>& sums) {
-    return gather_from(segments, shared, shared, 0, items, sums);
+Launch ContactResponse::gather_at(Phase phase, Buffer<float4>& shared, VertexItems& items,
+                                  Buffer<float>& sums) {
+    return gather_from(phase, shared, shared, 0, items, sums);
 }
 
-Launch ContactResponse::gather_from(const Segments& segments, Buffer<float4>& positions,
+Launch ContactResponse::gather_from(Phase phase, Buffer<float4>& positions,
                                     Buffer<float4>& snapshots, int second_half, VertexItems& items,
                                     Buffer<float>& sums) {
-    return launch(kernels::gather_contacts, segments, positions, snapshots, items.vertices(),
-                  contacts_.rows(), contacts_.counts(), corner0_, corner1_, corner2_, corner3_,
-                  normals_, weights_, measures_, slips_, sums, items.count(), second_half,
-                  kIteration, friction_, creep_);
+    return only_where(rows().gate(phase),
+                      launch(kernels::gather_contacts, items.segments(phase), positions, snapshots,
+                             items.vertices(), contacts_.rows(), contacts_.counts(), corner0_,
+                             corner1_, corner2_, corner3_, normals_, weights_, measures_, slips_,
+                             sums, items.count(), second_half, kIteration, friction_, creep_));
 }
 
 void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int first_strip,
@@ -321,8 +338,9 @@ Launch ContactResponse::truncation(Buffer<float4>& positions, float soft, int al
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
-    return launch(kernels::take_snapshot, model_.vertices(), positions, least_, snapshots_,
-                  model_.vertex_count(), kIteration, ahead);
+    return only_where(
+        touching_, launch(kernels::take_snapshot, model_.vertices(), positions, least_, snapshots_,
+                          model_.vertex_count(), kIteration, ahead));
 }
 
 void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions,
@@ -343,10 +361,13 @@ void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>
     launches.push_back(snapshot(positions, 1));
 }
 
-void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first,
-                                            int last) {
+void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip,
+                                            int end_strip) {
+    const auto [first, last] = vertices(first_strip, end_strip);
     const int half = (iteration + 1) % 2 * model_.vertex_count();
-    task.reads(least_, first, last).updates(snapshots_, half + first, half + last);
+    task.reads(touching_, first_strip, end_strip)
+        .reads(least_, first, last)
+        .updates(snapshots_, half + first, half + last);
 }
 
 /// Both halves: who hears late of others sees of them where they began, not an earlier substep.
@@ -396,8 +417,8 @@ std::string ContactResponse::trouble() const {
 }
 
 ContactRows ContactResponse::rows() {
-    return {contacts_, corner0_, corner1_,  corner2_, corner3_,
-            normals_,  weights_, measures_, slips_};
+    return {contacts_, corner0_,  corner1_, corner2_,  corner3_, normals_,
+            weights_,  measures_, slips_,   touching_, meeting_};
 }
 
 std::vector<BufferStorage*> ContactResponse::state() {
@@ -416,7 +437,10 @@ std::vector<FrozenContact> ContactResponse::frozen() {
 void ContactResponse::put(std::span<const FrozenContact> contacts,
                           std::span<const float4> positions, std::span<const float4> targets) {
     fill_rows(rows(), contacts, positions, targets);
-    std::ranges::fill(least_.span(), 0.0f);  // who has pairs is not known
+    // Who has pairs is not known.
+    std::ranges::fill(least_.span(), 0.0f);
+    std::ranges::fill(touching_.span(), 1);
+    std::ranges::fill(meeting_.span(), 1);
 }
 
 ContactRecord ContactResponse::account() {

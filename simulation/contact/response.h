@@ -50,11 +50,9 @@ public:
     void add_detection(Step& step, const std::vector<Region>& regions);
 
     /// The contacts' part of gradients and Hessian blocks, behind that of the elements.
-    Launch gather(const Segments& segments, Buffer<float4>& positions, VertexItems& items,
-                  Buffer<float>& sums);
+    Launch gather(Phase phase, Buffer<float4>& positions, VertexItems& items, Buffer<float>& sums);
     /// The same where the positions are those that all vertices share.
-    Launch gather_at(const Segments& segments, Buffer<float4>& shared, VertexItems& items,
-                     Buffer<float>& sums);
+    Launch gather_at(Phase phase, Buffer<float4>& shared, VertexItems& items, Buffer<float>& sums);
     /// What the first needs, of vertices in strips [first_strip, end_strip).
     void add_gather_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
 
@@ -66,7 +64,7 @@ public:
     void add_truncation_accesses(Step::Adding& task, int first, int last);
     /// Shows the positions to all in the next iteration.
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
-    void add_snapshot_accesses(Step::Adding& task, int iteration, int first, int last);
+    void add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
     /// [2 * vertices] what is shown: to even iterations in the first half, to odd ones in the
     /// second.
     Buffer<float4>& snapshots() { return snapshots_; }
@@ -121,9 +119,8 @@ private:
     void add_fill(Step& step, const Region& region);
     void add_pair_accesses(Step::Adding& task, const Region& region);
     /// second_half: where it begins
-    Launch gather_from(const Segments& segments, Buffer<float4>& positions,
-                       Buffer<float4>& snapshots, int second_half, VertexItems& items,
-                       Buffer<float>& sums);
+    Launch gather_from(Phase phase, Buffer<float4>& positions, Buffer<float4>& snapshots,
+                       int second_half, VertexItems& items, Buffer<float>& sums);
     Launch truncation(Buffer<float4>& positions, float soft, int all_from);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
@@ -138,7 +135,8 @@ private:
     CommonMotion motion_;
     Buffer<float> quiet_;  ///< [vertices] how far each may get before a triangle could turn over
     Incidence incidence_;
-    Buffer<int> busy_;  ///< [patches] kernels/contact/fill.h
+    Buffer<int> busy_;                          ///< [patches] kernels/contact/fill.h
+    Buffer<int> touching_, meeting_, filling_;  ///< [strips] kernels/contact/gates.h
     int fill_kind_;
     RowTable planes_table_, contacts_;
     Buffer<float4>& planes_;
@@ -151,7 +149,7 @@ private:
     Buffer<float> cut_ways_;
     Buffer<float4> snapshots_;
     TaskBody fill_;
-    std::size_t showing_ = 2;  ///< where its launches show the start
+    std::size_t showing_ = 0;  ///< where its launches show the start
     ContactEnergy energy_;
 };
 

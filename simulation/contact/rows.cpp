@@ -12,6 +12,7 @@ void ContactRows::add_reads(Step::Adding& task, int first_strip, int end_strip, 
         task.reads(*column, table.entries(), first_strip, end_strip);
     }
     if (have_slips()) task.reads(slips, table.entries(), first_strip, end_strip);
+    task.reads(touching, first_strip, end_strip).reads(meeting, first_strip, end_strip);
 }
 
 std::vector<BufferStorage*> ContactRows::buffers() const {

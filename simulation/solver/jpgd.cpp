@@ -163,8 +163,8 @@ private:
             steps_[p] = {"step", kStep, derivatives_.gather_gradients(kInnerPhase, after(parity))};
             if (contact_) {
                 refreshes_[p].launches.push_back(bound_elements());
-                refreshes_[p].launches.push_back(contact_->gather_at(
-                    items_.segments(kInnerPhase), after(parity), items_, derivatives_.sums()));
+                refreshes_[p].launches.push_back(
+                    contact_->gather_at(kInnerPhase, after(parity), items_, derivatives_.sums()));
             }
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
                 body->launches.push_back(contact_ ? descend_beside_contacts(parity)

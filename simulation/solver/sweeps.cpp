@@ -22,8 +22,8 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
         TaskBody& body = phase == kSeamPhase ? sweep.seams : sweep.strips;
         body.launches = sweep.derivatives.gather(phase, *model_.positions);
         if (contact != nullptr) {
-            body.launches.push_back(contact->gather(sweep.items.segments(phase), *model_.positions,
-                                                    sweep.items, sweep.derivatives.sums()));
+            body.launches.push_back(
+                contact->gather(phase, *model_.positions, sweep.items, sweep.derivatives.sums()));
         }
         for (Launch& launch : solve({phase, *model_.positions, sweep.items,
                                      sweep.derivatives.sums(), substep_.targets(), inverse_h2})) {
@@ -113,7 +113,7 @@ void SweepSolver::add_strips(Step& step, int iteration, StripRange strips, Regio
     if (contact == nullptr) return;
     contact->add_gather_accesses(task, iteration, strips.begin, strips.end);
     contact->add_truncation_accesses(task, first, last);
-    contact->add_snapshot_accesses(task, iteration, first, last);
+    contact->add_snapshot_accesses(task, iteration, strips.begin, strips.end);
 }
 
 }  // namespace weft

@@ -289,7 +289,7 @@ private:
         task.updates(*model_.positions, begin, end);
         update_multipliers(task, group, body);
         if (contact_) {
-            projection_->add_snapshot_accesses(task, iteration, begin, end);
+            projection_->add_snapshot_accesses(task, iteration, strips.begin, strips.end);
             return;
         }
         const bool has_obstacles = body.launches.size() > group.families.size();

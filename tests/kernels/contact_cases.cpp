@@ -77,10 +77,16 @@ void tilt_patches_case(KernelCase& c) {
                         anchors[at(p)].z + off.z, 1.0f};
     }
     auto& foresees = add_numbers(c, "foresees", 1, 2);
+    auto& strides = c.add<float4>("strides", 30);
+    for (float4& stride : strides.span()) stride = c.random.point(0.01f);
+    auto& worn = c.add<float>("worn", c.items);
+    for (float& way : worn.span()) way = c.random.real(0.0f, 0.03f);
     auto& tilts = c.add<float4>("tilts", c.items);
+    for (float4& tilt : tilts.span()) tilt.w = static_cast<float>(c.random.integer(0, 2));
     auto& drifts = c.add<float4>("drifts", c.items);
-    c.launch = launch(kernels::tilt_patches, c.segments, anchors, goals, foresees, begin, corners,
-                      rim_begin, rims, boxes.high, quiet, tilts, drifts, faces);
+    c.launch =
+        launch(kernels::tilt_patches, c.segments, anchors, goals, strides, foresees, begin, corners,
+               rim_begin, rims, boxes.high, quiet, worn, tilts, drifts, faces, kInstance);
 }
 
 void enclose_primitives_case(KernelCase& c) {

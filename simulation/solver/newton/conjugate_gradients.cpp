@@ -93,8 +93,8 @@ std::vector<Launch> ConjugateGradients::linearise() {
     append(launches, hessian_.couple(linearised_at()));
     append(launches, hessian_.sum_rows(sums_));
     if (contacts_) {
-        launches.push_back(substep_.contact()->gather_at(items_.segments(kInnerPhase),
-                                                         *model_.positions, items_, sums_));
+        launches.push_back(
+            substep_.contact()->gather_at(kInnerPhase, *model_.positions, items_, sums_));
         launches.push_back(contacts_->couple());
     }
     launches.push_back(launch(kernels::begin_conjugate_gradients, model_.vertices(),

@@ -50,8 +50,8 @@ struct Smoother {
             TaskBody& body = phase == kSeamPhase ? seams : strips;
             body.launches = derivatives.gather(phase, *model.positions);
             if (contact != nullptr) {
-                body.launches.push_back(contact->gather(items.segments(phase), *model.positions,
-                                                        items, derivatives.sums()));
+                body.launches.push_back(
+                    contact->gather(phase, *model.positions, items, derivatives.sums()));
             }
             body.launches.push_back(launch(kernels::solve_vertices, items.segments(phase),
                                            *model.positions, substep.targets(), items.vertices(),
@@ -318,16 +318,17 @@ private:
                 .updates(after, first, last)
                 .reads(control_, 0, WEFT_CONTROL_SIZE);
             add_columns(task, gradients_.moves(), model_.vertex_count(), 3, first, last, false);
-            add_last_word_accesses(task, first, last);
+            add_last_word_accesses(task, region.strips());
         }
     }
 
     /// Of obstacles, and of contacts.
-    void add_last_word_accesses(Step::Adding& task, int first, int last) {
+    void add_last_word_accesses(Step::Adding& task, StripRange strips) {
+        const auto [first, last] = substep_.vertices(strips.begin, strips.end);
         substep_.momentum().add_obstacle_accesses(task, first, last);
         if (contact_ == nullptr) return;
         contact_->add_truncation_accesses(task, first, last);
-        contact_->add_snapshot_accesses(task, number_, first, last);
+        contact_->add_snapshot_accesses(task, number_, strips.begin, strips.end);
     }
 
     void add_sweep(Step& step) {
@@ -340,7 +341,7 @@ private:
                     auto task = step.add(smoother_.strips, number_, strips, region.id);
                     task.updates(*model_.positions, first, last)
                         .reads(substep_.targets(), first, last);
-                    add_last_word_accesses(task, first, last);
+                    add_last_word_accesses(task, strips);
                     if (contact_ != nullptr) {
                         contact_->add_gather_accesses(task, number_, strips.begin, strips.end);
                     }
@@ -381,7 +382,7 @@ private:
             const auto [first, last] = substep_.vertices(region.begin, region.end);
             auto task = step.add(revert_, number_, region.strips(), region.id);
             task.reads(control_, 0, WEFT_CONTROL_SIZE).updates(kept_, first, last);
-            if (contact_) contact_->add_snapshot_accesses(task, number_, first, last);
+            if (contact_) contact_->add_snapshot_accesses(task, number_, region.begin, region.end);
             for (Buffer<float4>* buffer : {&positions, &before, &after}) {
                 task.updates(*buffer, first, last);
             }
