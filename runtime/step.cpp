@@ -1,8 +1,9 @@
 #include "runtime/step.h"
 
 #include <algorithm>
-#include <map>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 #include "runtime/error.h"
 #include "scheduler/assert.h"
@@ -17,10 +18,6 @@ bool same_table(const Segments* a, const Segments* b) {
     return a->begin == b->begin && a->first == b->first;
 }
 
-bool same_units(const Access& a, const Access& b) {
-    return a.buffer == b.buffer && same_table(a.segments, b.segments);
-}
-
 /// Whether no item of one table is an item of the other.
 bool apart(const Segments* a, const Segments* b) {
     if (a == nullptr || b == nullptr || a->begin != b->begin) return false;
@@ -33,22 +30,45 @@ bool apart(const Segments* a, const Segments* b) {
                  "): " + why);
 }
 
-/// Accesses in different units cannot be compared: so a buffer has one, or tables of it that share
-/// no item.
-void refuse_mixed_units(const std::vector<Task>& tasks) {
-    std::map<const BufferStorage*, std::vector<const Segments*>> tables;
-    for (const Task& task : tasks) {
-        for (const Access& access : task.accesses) {
-            auto& known = tables[access.buffer];
-            const auto is_same = [&](const Segments* t) { return same_table(t, access.segments); };
-            if (std::ranges::any_of(known, is_same)) continue;
-            for (const Segments* other : known) {
-                if (!apart(other, access.segments))
-                    refuse(task, access, "in units of another kind");
-            }
-            known.push_back(access.segments);
+/// Numbers what accesses are in units of: a buffer's elements, or the strips of a table of it.
+/// Accesses in different units cannot be compared, so a buffer has one, or tables that share no
+/// item.
+class Units {
+public:
+    int number_of(const Task& task, const Access& access) {
+        auto& known = tables_[access.buffer];
+        for (const auto& [table, number] : known) {
+            if (same_table(table, access.segments)) return number;
         }
+        for (const auto& [table, number] : known) {
+            if (!apart(table, access.segments)) refuse(task, access, "in units of another kind");
+        }
+        return known.emplace_back(access.segments, count_++).second;
     }
+
+private:
+    std::unordered_map<const BufferStorage*, std::vector<std::pair<const Segments*, int>>> tables_;
+    int count_ = 0;
+};
+
+struct NumberedAccess {
+    int unit;
+    const Access* access;
+};
+
+/// [tasks] the accesses of each by ascending units, so that two of them are compared in one go: a
+/// step has thousands of pairs of tasks, and a task dozens of accesses.
+std::vector<std::vector<NumberedAccess>> sorted_accesses(const std::vector<Task>& tasks) {
+    Units units;
+    std::vector<std::vector<NumberedAccess>> sorted;
+    for (const Task& task : tasks) {
+        auto& own = sorted.emplace_back();
+        for (const Access& access : task.accesses) {
+            own.push_back({units.number_of(task, access), &access});
+        }
+        std::ranges::sort(own, {}, &NumberedAccess::unit);
+    }
+    return sorted;
 }
 
 /// The range must lie within the buffer.
@@ -99,15 +119,18 @@ int overlap(const Access& a, const Access& b) {
 }
 
 /// What the second task must wait for: -1 nothing, else the bytes that it reads of the first's.
-double conflict(const Task& first, const Task& second) {
+double conflict(const std::vector<NumberedAccess>& first,
+                const std::vector<NumberedAccess>& second) {
     double bytes = -1.0;
-    for (const Access& a : first.accesses) {
-        for (const Access& b : second.accesses) {
-            if (!(a.writes || b.writes) || !same_units(a, b)) continue;
-            const int common = overlap(a, b);
+    auto from = second.begin();
+    for (const auto& [unit, a] : first) {
+        while (from != second.end() && from->unit < unit) ++from;
+        for (auto other = from; other != second.end() && other->unit == unit; ++other) {
+            const Access& b = *other->access;
+            const int common = a->writes || b.writes ? overlap(*a, b) : 0;
             if (common == 0) continue;
             bytes = std::max(bytes, 0.0);
-            if (a.writes)
+            if (a->writes)
                 bytes +=
                     static_cast<double>(common) * static_cast<double>(b.buffer->element_size());
         }
@@ -182,7 +205,7 @@ void Step::add(const Task& task) {
 void Step::seal() {
     refuse_if_sealed();
     sealed_ = true;
-    refuse_mixed_units(tasks_);
+    const auto accesses = sorted_accesses(tasks_);
     // Two instances in a row; a dependency is kept unless it follows from others already. The
     // transitive ones are found through the set of tasks that each task is known to come after.
     const int count = static_cast<int>(tasks_.size());
@@ -197,8 +220,8 @@ void Step::seal() {
     for (int to = 0; to < 2 * count; ++to) {
         for (int from = to - 1; from >= std::max(0, to - count); --from) {
             if (contains(to, from)) continue;
-            const double bytes = conflict(tasks_[static_cast<std::size_t>(from % count)],
-                                          tasks_[static_cast<std::size_t>(to % count)]);
+            const double bytes = conflict(accesses[static_cast<std::size_t>(from % count)],
+                                          accesses[static_cast<std::size_t>(to % count)]);
             if (bytes < 0.0) continue;
             for (std::size_t w = 0; w < words; ++w) row(to)[w] |= row(from)[w];
             row(to)[from / 64] |= std::uint64_t{1} << (from % 64);

@@ -32,8 +32,15 @@ void Trials::begin(std::uint32_t alternative) {
     ratios_.clear();
 }
 
+/// The middle of all frames that tell cannot be a gain any more once more than half were none.
+bool Trials::is_lost() const {
+    const auto is_none = [&](double ratio) { return !is_gain(ratio); };
+    return std::ranges::count_if(ratios_, is_none) > (settings_.frames - settings_.waking) / 2;
+}
+
 bool Trials::is_over(double ratio) const {
-    return frame_ >= settings_.frames || (!ratios_.empty() && ratio > settings_.hopeless);
+    return frame_ >= settings_.frames || is_lost() ||
+           (!ratios_.empty() && ratio > settings_.hopeless);
 }
 
 std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
@@ -45,7 +52,7 @@ std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
     if (!is_over(seconds / to_beat)) return std::nullopt;
     running_ = false;
     probes_.paid(alternative_, std::max(0.0, charge_));
-    return middle_of(ratios_) < 1.0 - settings_.margin ? std::optional(alternative_) : std::nullopt;
+    return is_gain(middle_of(ratios_)) ? std::optional(alternative_) : std::nullopt;
 }
 
 }  // namespace weft::scheduler

@@ -13,7 +13,8 @@ struct TrialSettings {
     std::uint32_t frames = 4;  ///< of a trial
     /// Of these, at the beginning, tell nothing: what was asleep wakes up.
     std::uint32_t waking = 1;
-    /// A trial ends at the first frame behind these that takes so many times what it has to beat.
+    /// A trial ends at the first frame behind these that takes so many times what it has to beat,
+    /// and once it cannot end well any more.
     double hopeless = 1.5;
     /// Relative gain below which a change is not worth it.
     double margin = 0.03;
@@ -53,6 +54,8 @@ public:
 
 private:
     void begin(std::uint32_t alternative);
+    bool is_gain(double ratio) const { return ratio < 1.0 - settings_.margin; }
+    bool is_lost() const;
     bool is_over(double ratio) const;
 
     TrialSettings settings_;

@@ -38,8 +38,18 @@ struct TimingModel::Exchanges {
 TimingModel::TimingModel(std::size_t kinds, std::size_t devices)
     : devices_(devices),
       costs_(static_cast<std::uint32_t>(kinds), static_cast<std::uint32_t>(devices)),
+      drift_(costs_.kinds(), costs_.devices()),
       links_(devices * devices, {kFirstLatency, std::numeric_limits<double>::infinity()}),
       unseen_(links_.size(), kOldFrames) {}
+
+/// Where items are all there is to tell tasks apart by, they are alike.
+double TimingModel::task(const Task& task, int device) const {
+    const auto kind = static_cast<std::uint32_t>(task.body->kind);
+    const auto d = static_cast<std::uint32_t>(device);
+    const double count = items(task);
+    const double cost = costs_.predict(kind, d, count);
+    return items_vary(task) ? cost * drift_.factor(costs_, kind, d, count) : cost;
+}
 
 void TimingModel::set_latency(int from, int to, double seconds) {
     links_[index(from, to)].latency = seconds;
@@ -128,6 +138,7 @@ std::vector<double> TimingModel::learn(const Step& step, const scheduler::Plan& 
         }
     }
     costs_.refit();
+    drift_.note(costs_);
     learn_latencies(exchanges);
     learn_bandwidths(times.copies);
     return mean;

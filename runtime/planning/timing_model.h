@@ -4,6 +4,7 @@
 
 #include "runtime/executor.h"
 #include "runtime/planning/row_items.h"
+#include "scheduler/cost_drift.h"
 #include "scheduler/cost_model.h"
 #include "scheduler/task_graph.h"
 
@@ -27,10 +28,7 @@ public:
     /// What the cost model counts of a task.
     double items(const Task& task) const { return rows_.of(task); }
     bool items_vary(const Task& task) const { return rows_.vary(task.body->kind); }
-    double task(const Task& task, int device) const {
-        return costs_.predict(static_cast<std::uint32_t>(task.body->kind),
-                              static_cast<std::uint32_t>(device), items(task));
-    }
+    double task(const Task& task, int device) const;
     double latency(int from, int to) const { return links_[index(from, to)].latency; }
     const Link& link(int from, int to) const { return links_[index(from, to)]; }
     /// What is known from elsewhere, and is replaced as soon as it is measured here.
@@ -61,6 +59,7 @@ private:
 
     std::size_t devices_;
     scheduler::CostModel costs_;
+    scheduler::CostDrift drift_;
     std::vector<Link> links_;  ///< [from][to]
     std::vector<int> unseen_;  ///< [from][to] frames since its latency was measured
     RowItems rows_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "scheduler/cost_drift.h"
 #include "scheduler/heft.h"
 #include "scheduler/plan_choice.h"
 #include "scheduler/probing.h"
@@ -326,6 +327,44 @@ TEST(PlanChoice, OneDisturbedFrameChangesNothing) {
         EXPECT_EQ(choice.choose(std::vector{1.0, 1.2}), 0u);
         choice.measured(0, 1.0, 1.0);
     }
+}
+
+/// Two devices, of which the second one takes twice as long; what is to be done takes so many times
+/// as long as at the beginning.
+void run_frame(CostModel& model, CostDrift& drift, double work, bool both) {
+    for (const double items : {1000.0, 4000.0, 10000.0}) {
+        for (int i = 0; i < 8; ++i) {
+            model.observe(0, 0, items, work * 1e-8 * items);
+            if (both) model.observe(0, 1, items, work * 2e-8 * items);
+        }
+    }
+    model.refit();
+    drift.note(model);
+}
+
+TEST(CostDrift, IsWhatDevicesInUseTellOfThoseThatAreNot) {
+    CostModel model(1, 2);
+    CostDrift drift(1, 2);
+    const auto cost = [&](std::uint32_t device) {
+        return model.predict(0, device, 4000.0) * drift.factor(model, 0, device, 4000.0);
+    };
+    for (int frame = 0; frame < 4; ++frame) run_frame(model, drift, 1.0, true);
+    EXPECT_EQ(drift.factor(model, 0, 0, 4000.0), 1.0);
+    EXPECT_EQ(drift.factor(model, 0, 1, 4000.0), 1.0);
+    for (int frame = 0; frame < 30; ++frame) run_frame(model, drift, 5.0, false);
+    EXPECT_EQ(drift.factor(model, 0, 0, 4000.0), 1.0);
+    EXPECT_NEAR(cost(1), 2.0 * cost(0), 1e-3 * cost(0));
+    EXPECT_NEAR(drift.factor(model, 0, 1, 4000.0), 5.0, 1e-3);
+    run_frame(model, drift, 5.0, true);
+    EXPECT_EQ(drift.factor(model, 0, 1, 4000.0), 1.0) << "it has been seen itself";
+}
+
+TEST(CostDrift, IsNoneWhereNothingIsKnown) {
+    CostModel model(1, 2);
+    CostDrift drift(1, 2);
+    EXPECT_EQ(drift.factor(model, 0, 1, 100.0), 1.0);
+    for (int frame = 0; frame < 4; ++frame) run_frame(model, drift, 3.0, false);
+    EXPECT_EQ(drift.factor(model, 0, 1, 100.0), 1.0);
 }
 
 }  // namespace

@@ -56,6 +56,15 @@ TEST(Trials, EndsAtOnceWhereThereIsNoHope) {
     EXPECT_EQ(course.tried, 2);
 }
 
+TEST(Trials, EndOnceTheyCannotEndWell) {
+    Trials lost(2, {.start_frames = 10.0});
+    const Course course = run(lost, 20, {1.0, 1.1, 1.0, 0.5});
+    EXPECT_FALSE(course.won);
+    EXPECT_EQ(course.tried, 3);
+    Trials open(2, {.start_frames = 10.0});
+    EXPECT_EQ(run(open, 20, {1.0, 1.1, 0.5, 1.0}).tried, 4);
+}
+
 TEST(Trials, AreJudgedByTheMiddleOfTheLaterFrames) {
     Trials lucky(2, {.start_frames = 10.0});
     EXPECT_FALSE(run(lucky, 20, {1.0, 1.2, 0.5, 1.2}).won);

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scheduler/cost_model.h"
+
+namespace weft::scheduler {
+
+/// How tasks have changed since a device last ran some of their kind. Work whose items are not
+/// alike (contacts that come to press, rows that get longer) takes another time per item than it
+/// did, and a device that is out of use knows nothing of that. Those in use do: what they take now
+/// for what they took then is the drift, on all devices alike.
+class CostDrift {
+public:
+    CostDrift(std::uint32_t kinds, std::uint32_t devices);
+
+    /// Ends a frame, behind costs.refit().
+    void note(const CostModel& costs);
+
+    /// By how many times the kind's cost on the device has drifted from its fit, for so many items;
+    /// 1 where it was observed as lately as on any other device, or nothing is known of that.
+    double factor(const CostModel& costs, std::uint32_t kind, std::uint32_t device,
+                  double items) const;
+
+private:
+    std::size_t index(std::uint32_t kind, std::uint32_t device, std::uint32_t other) const {
+        return (std::size_t{kind} * devices_ + device) * devices_ + other;
+    }
+
+    std::uint32_t kinds_, devices_;
+    /// [kind][device][other] the other's cost when the kind was last observed on the device.
+    std::vector<LinearCost> then_;
+};
+
+}  // namespace weft::scheduler
