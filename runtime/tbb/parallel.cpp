@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <vector>
 
@@ -12,6 +13,23 @@ namespace weft {
 namespace {
 
 constexpr int kBlock = 2048;
+
+/// As tbb::parallel_for(). TBB's library is not built for thread sanitizers, so they do not see
+/// that its threads begin behind what was done before, and end before what comes behind: the
+/// counter says both once more.
+template <class... Partitioner>
+void for_each_number(int count, const std::function<void(int number)>& action,
+                     const Partitioner&... partitioner) {
+    std::atomic<int> done;
+    done.store(0, std::memory_order_release);
+    const auto one = [&](int number) {
+        (void)done.load(std::memory_order_acquire);
+        action(number);
+        done.fetch_add(1, std::memory_order_release);
+    };
+    tbb::parallel_for(0, count, one, partitioner...);
+    (void)done.load(std::memory_order_acquire);
+}
 
 }  // namespace
 
@@ -39,7 +57,7 @@ void for_each_block(int count, const std::function<void(int block, int begin, in
         if (count > 0) one(0);
         return;
     }
-    tbb::parallel_for(0, block_count(count), one);
+    for_each_number(block_count(count), one);
 }
 
 void for_each_block(std::span<const BlockLoop> loops) {
@@ -48,7 +66,7 @@ void for_each_block(std::span<const BlockLoop> loops) {
         ends.push_back((ends.empty() ? 0 : ends.back()) + block_count(loop.count));
     }
     if (ends.empty()) return;
-    tbb::parallel_for(0, ends.back(), [&](int number) {
+    for_each_number(ends.back(), [&](int number) {
         const auto found = std::ranges::upper_bound(ends, number) - ends.begin();
         const BlockLoop& loop = loops[static_cast<std::size_t>(found)];
         const int block =
@@ -59,7 +77,7 @@ void for_each_block(std::span<const BlockLoop> loops) {
 }
 
 void for_each_apart(int count, const std::function<void(int i)>& action) {
-    tbb::parallel_for(0, count, action, tbb::simple_partitioner());
+    for_each_number(count, action, tbb::simple_partitioner());
 }
 
 double sum_of_blocks(int count, const std::function<double(int begin, int end)>& sum_of) {
