@@ -1,13 +1,6 @@
 #include "scheduler/cost_drift.h"
 
-#include <algorithm>
-
 namespace weft::scheduler {
-
-namespace {
-/// Beyond, one of the two fits says nothing of so many items.
-constexpr double kMostDrift = 100.0;
-}  // namespace
 
 CostDrift::CostDrift(std::uint32_t kinds, std::uint32_t devices)
     : kinds_(kinds), devices_(devices), then_(std::size_t{kinds} * devices * devices) {}
@@ -23,19 +16,22 @@ void CostDrift::note(const CostModel& costs) {
     }
 }
 
-double CostDrift::factor(const CostModel& costs, std::uint32_t kind, std::uint32_t device,
-                         double items) const {
+double CostDrift::predict(const CostModel& costs, std::uint32_t kind, std::uint32_t device,
+                          double items) const {
     std::uint32_t latest = device;
     for (std::uint32_t other = 0; other < devices_; ++other) {
         if (costs.frames_unobserved(kind, other) < costs.frames_unobserved(kind, latest)) {
             latest = other;
         }
     }
-    if (latest == device) return 1.0;
-    const double then = then_[index(kind, device, latest)](items);
+    const double own = costs.predict(kind, device, items);
+    if (latest == device) return own;
+    // Fits that stand on other numbers of items may say anything of these.
+    const double seen = costs.last_items(kind, device);
+    const double theirs = then_[index(kind, device, latest)](seen);
     const double now = costs.predict(kind, latest, items);
-    if (!(then > 0.0 && now > 0.0)) return 1.0;
-    return std::clamp(now / then, 1.0 / kMostDrift, kMostDrift);
+    if (!(seen > 0.0 && theirs > 0.0 && now > 0.0)) return own;
+    return costs.predict(kind, device, seen) / theirs * now;
 }
 
 }  // namespace weft::scheduler

@@ -9,8 +9,8 @@ namespace weft::scheduler {
 
 /// How tasks have changed since a device last ran some of their kind. Work whose items are not
 /// alike (contacts that come to press, rows that get longer) takes another time per item than it
-/// did, and a device that is out of use knows nothing of that. Those in use do: what they take now
-/// for what they took then is the drift, on all devices alike.
+/// did, and a device that is out of use knows nothing of that. Those in use do: it takes as many
+/// times what they take now as it did when it was last seen, of as many items as it ran then.
 class CostDrift {
 public:
     CostDrift(std::uint32_t kinds, std::uint32_t devices);
@@ -18,10 +18,10 @@ public:
     /// Ends a frame, behind costs.refit().
     void note(const CostModel& costs);
 
-    /// By how many times the kind's cost on the device has drifted from its fit, for so many items;
-    /// 1 where it was observed as lately as on any other device, or nothing is known of that.
-    double factor(const CostModel& costs, std::uint32_t kind, std::uint32_t device,
-                  double items) const;
+    /// Predicted seconds, as costs.predict(), which it is where the kind was observed on the device
+    /// as lately as on any other one, or nothing is known of that.
+    double predict(const CostModel& costs, std::uint32_t kind, std::uint32_t device,
+                   double items) const;
 
 private:
     std::size_t index(std::uint32_t kind, std::uint32_t device, std::uint32_t other) const {

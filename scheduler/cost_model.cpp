@@ -78,6 +78,14 @@ void CostModel::observe(std::uint32_t kind, std::uint32_t device, double items, 
     samples_[e * kSamples + entry.pending++ % kSamples] = {items, seconds};
 }
 
+double CostModel::last_items(std::uint32_t kind, std::uint32_t device) const {
+    const std::uint32_t capacity = 2 * settings_.window;
+    const std::size_t e = index(kind, device);
+    const Entry& known = entries_[e];
+    if (known.points == 0) return 0.0;
+    return points_[e * capacity + (known.oldest + known.points - 1) % capacity].items;
+}
+
 // A first execution is too long, but better than no idea at all: it holds until there is another.
 void CostModel::believe_first(Entry& entry, double items, double seconds) const {
     entry.last_frame = frame_;

@@ -69,6 +69,9 @@ public:
         return frame_ - entry(kind, device).last_frame;
     }
 
+    /// Of how many items the last observation tells; 0 where there was none that is believed.
+    double last_items(std::uint32_t kind, std::uint32_t device) const;
+
     const CostFit& fit(std::uint32_t kind, std::uint32_t device) const {
         return entry(kind, device).fit;
     }

@@ -47,8 +47,8 @@ double TimingModel::task(const Task& task, int device) const {
     const auto kind = static_cast<std::uint32_t>(task.body->kind);
     const auto d = static_cast<std::uint32_t>(device);
     const double count = items(task);
-    const double cost = costs_.predict(kind, d, count);
-    return items_vary(task) ? cost * drift_.factor(costs_, kind, d, count) : cost;
+    return items_vary(task) ? drift_.predict(costs_, kind, d, count)
+                            : costs_.predict(kind, d, count);
 }
 
 void TimingModel::set_latency(int from, int to, double seconds) {

@@ -345,26 +345,45 @@ void run_frame(CostModel& model, CostDrift& drift, double work, bool both) {
 TEST(CostDrift, IsWhatDevicesInUseTellOfThoseThatAreNot) {
     CostModel model(1, 2);
     CostDrift drift(1, 2);
-    const auto cost = [&](std::uint32_t device) {
-        return model.predict(0, device, 4000.0) * drift.factor(model, 0, device, 4000.0);
+    const auto cost = [&](std::uint32_t device) { return drift.predict(model, 0, device, 4000.0); };
+    const auto expect_none = [&](std::uint32_t device) {
+        EXPECT_EQ(cost(device), model.predict(0, device, 4000.0)) << device;
     };
     for (int frame = 0; frame < 4; ++frame) run_frame(model, drift, 1.0, true);
-    EXPECT_EQ(drift.factor(model, 0, 0, 4000.0), 1.0);
-    EXPECT_EQ(drift.factor(model, 0, 1, 4000.0), 1.0);
+    expect_none(0);
+    expect_none(1);
     for (int frame = 0; frame < 30; ++frame) run_frame(model, drift, 5.0, false);
-    EXPECT_EQ(drift.factor(model, 0, 0, 4000.0), 1.0);
-    EXPECT_NEAR(cost(1), 2.0 * cost(0), 1e-3 * cost(0));
-    EXPECT_NEAR(drift.factor(model, 0, 1, 4000.0), 5.0, 1e-3);
+    expect_none(0);
+    EXPECT_NEAR(cost(1), 5.0 * 2e-8 * 4000.0, 1e-9);
     run_frame(model, drift, 5.0, true);
-    EXPECT_EQ(drift.factor(model, 0, 1, 4000.0), 1.0) << "it has been seen itself";
+    expect_none(1);  // it has been seen itself
+}
+
+/// One has only seen a few items, and takes all of it for fixed.
+TEST(CostDrift, CountsWhatItemsTellOnce) {
+    CostModel model(1, 2);
+    CostDrift drift(1, 2);
+    model.restore(0, 0, {{100e-6, 0.0}, 0.0, 5});
+    model.restore(0, 1, {{0.0, 200e-9}, 0.0, 5});
+    const auto run = [&](double items, double seconds, bool both) {
+        for (int i = 0; i < 8; ++i) {
+            model.observe(0, 0, items, seconds);
+            if (both) model.observe(0, 1, items, 2.0 * seconds);
+        }
+        model.refit();
+        drift.note(model);
+    };
+    for (int frame = 0; frame < 4; ++frame) run(1000.0, 100e-6, true);
+    for (int frame = 0; frame < 30; ++frame) run(5000.0, 500e-6, false);
+    EXPECT_NEAR(drift.predict(model, 0, 1, 5000.0), 1000e-6, 1e-6);
 }
 
 TEST(CostDrift, IsNoneWhereNothingIsKnown) {
     CostModel model(1, 2);
     CostDrift drift(1, 2);
-    EXPECT_EQ(drift.factor(model, 0, 1, 100.0), 1.0);
+    EXPECT_EQ(drift.predict(model, 0, 1, 100.0), 0.0);
     for (int frame = 0; frame < 4; ++frame) run_frame(model, drift, 3.0, false);
-    EXPECT_EQ(drift.factor(model, 0, 1, 100.0), 1.0);
+    EXPECT_EQ(drift.predict(model, 0, 1, 100.0), 0.0);
 }
 
 }  // namespace
