@@ -87,13 +87,9 @@ private:
     std::vector<const void*> addresses_;
 };
 
-bool passes_over(const Launch& launch, int strip) {
-    return launch.gate != nullptr && (*launch.gate)[static_cast<std::size_t>(strip)] == 0;
-}
-
 void run_on_host(const Launch& launch, int strip, int colour, int instance, int iteration) {
     check_variant(launch, 1);
-    if (passes_over(launch, strip)) return;
+    if (is_closed(launch.gate, strip)) return;
     const HostArguments arguments(launch, instance, iteration);
     const int begin = launch.segments.item(strip, colour);
     const int end = launch.segments.item(strip, colour + 1);

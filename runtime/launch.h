@@ -78,6 +78,11 @@ struct Launch {
 /// gate  [strips]; it must outlive the launch. The task reads it. Throws Misuse where it is shorter.
 Launch only_where(Buffer<int>& gate, Launch launch);
 
+/// Whether a launch with this gate, or none, passes over a strip; the gate is the host's.
+inline bool is_closed(const Buffer<int>* gate, int strip) {
+    return gate != nullptr && (*gate)[static_cast<std::size_t>(strip)] == 0;
+}
+
 /// Throws Misuse where the CPU has no form of the kernel with so many lanes.
 void check_variant(const Launch& launch, int lanes);
 

@@ -42,7 +42,7 @@ TimingModel::TimingModel(std::size_t kinds, std::size_t devices)
       links_(devices * devices, {kFirstLatency, std::numeric_limits<double>::infinity()}),
       unseen_(links_.size(), kOldFrames) {}
 
-/// Where items are all there is to tell tasks apart by, they are alike.
+/// Entries of rows are not as alike from frame to frame as other items are.
 double TimingModel::task(const Task& task, int device) const {
     const auto kind = static_cast<std::uint32_t>(task.body->kind);
     const auto d = static_cast<std::uint32_t>(device);

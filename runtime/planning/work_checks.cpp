@@ -80,8 +80,6 @@ void check_bodies(Work& work) {
     }
 }
 
-/// Each buffer that the task's kernels get has to be among its accesses, or others would not know
-/// to wait for it, and devices with memory of their own would not get it.
 void check_access(const Task& task, const Launch& launch, const BufferStorage* buffer,
                   bool writes) {
     if (buffer == nullptr) return;
@@ -95,6 +93,8 @@ void check_access(const Task& task, const Launch& launch, const BufferStorage* b
                  (writes ? "updates" : "reads") + "() is missing");
 }
 
+/// Each buffer that the task's kernels get has to be among its accesses, or others would not know
+/// to wait for it, and devices with memory of their own would not get it.
 void check_accesses(const Task& task) {
     for (const Launch& launch : task.body->launches) {
         check_access(task, launch, launch.gate, false);

@@ -28,7 +28,7 @@ struct BoundLaunch {
     kernels::RangeFunction function;
     kernels::RangeFunction narrow;  ///< for ranges of up to kNarrow items
     Segments segments;
-    Buffer<int>* gate;
+    const Buffer<int>* gate;
     std::vector<Argument> values;
     std::vector<void*> pointers;         ///< storage of pointer parameters
     std::vector<const void*> arguments;  ///< to the parameters' values
@@ -77,7 +77,7 @@ struct BoundLaunch {
     }
 
     void run(int strip, int colour) const {
-        if (gate != nullptr && (*gate)[static_cast<std::size_t>(strip)] == 0) return;
+        if (is_closed(gate, strip)) return;
         const int begin = segments.item(strip, colour);
         const int end = segments.item(strip, colour + 1);
         WEFT_ASSERT(0 <= begin && begin <= end);

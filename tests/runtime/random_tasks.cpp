@@ -181,7 +181,7 @@ void RandomTasks::run_serially(const Task& task, int strip, int instance) {
     const auto& launches = task.body->launches;
     const auto run = [&](const Launch& launch, int colour) {
         const Segments& s = launch.segments;
-        if (launch.gate != nullptr && (*launch.gate)[static_cast<std::size_t>(strip)] == 0) return;
+        if (is_closed(launch.gate, strip)) return;
         run_on_host(launch, launch.kernel->scalar, s.item(strip, colour), s.item(strip, colour + 1),
                     instance, task.iteration);
     };
