@@ -72,7 +72,6 @@ OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {
     OpenClTarget target;
     target.device = device;
     target.context = cl::Context(device);
-    target.strict = options.strict_math;
     target.is_pocl = is_pocl(device);
     const bool is_cpu = is_type(device, CL_DEVICE_TYPE_CPU);
     target.entries = entry_options(device, options);
@@ -87,6 +86,8 @@ OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {
     info.memory = options.memory.value_or(memory_model(device));
     info.strict = options.strict_math && rounds_correctly(device);
     info.lanes = options.opencl_lanes != 0 ? options.opencl_lanes : (is_cpu ? 8 : 1);
+    const BuildOptions build{info.lanes, options.strict_math};
+    target.programs = std::make_shared<Programs>(target.context, device, build);
     return target;
 }
 

@@ -132,20 +132,16 @@ cl_uint OpenClStream::set_segment_arguments(cl::Kernel& kernel, cl_uint index,
 }
 
 void OpenClStream::bind(std::span<const TaskBody* const> bodies) {
-    const ProgramText text = program_text(bodies, target_.entries);
-    const cl::Program program = build_program(target_.context, target_.device, text.text,
-                                              {target_.info.lanes, target_.strict});
-    for (std::size_t b = 0; b < bodies.size(); ++b) bind(program, *bodies[b], text.entries[b]);
-}
-
-void OpenClStream::bind(const cl::Program& program, const TaskBody& body,
-                        const BodyEntries& entries) {
-    BoundBody bound{&body, entries.style, {}};
-    for (const std::string& entry : entries.names) {
-        bound.entries.push_back({cl::Kernel(program, entry.c_str())});
+    for (const TaskBody* body : bodies) {
+        const EntryPoints points = entry_points(*body, target_.entries);
+        const cl::Program& program = target_.programs->program(points);
+        BoundBody bound{body, points.style, {}};
+        for (const std::string& name : points.names) {
+            bound.entries.push_back({cl::Kernel(program, name.c_str())});
+        }
+        set_arguments(bound);
+        bodies_.push_back(std::move(bound));
     }
-    set_arguments(bound);
-    bodies_.push_back(std::move(bound));
 }
 
 /// One entry has the arguments of all launches, or each launch has its own.

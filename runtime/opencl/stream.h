@@ -7,7 +7,7 @@
 
 #include "runtime/device.h"
 #include "runtime/opencl/completion.h"
-#include "runtime/opencl/program.h"
+#include "runtime/opencl/programs.h"
 
 namespace weft {
 
@@ -17,8 +17,8 @@ struct OpenClTarget {
     cl::Device device;
     DeviceInfo info;
     EntryOptions entries;
-    bool strict = true;
-    bool is_pocl = false;  ///< whose streams are kept: see stream.cpp
+    std::shared_ptr<Programs> programs;  ///< of all of its streams
+    bool is_pocl = false;                ///< whose streams are kept: see stream.cpp
 };
 
 /// An in-order queue for tasks, and one beside it for copies.
@@ -79,7 +79,6 @@ private:
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     void bind(std::span<const TaskBody* const> bodies);
-    void bind(const cl::Program& program, const TaskBody& body, const BodyEntries& entries);
     Completion* submit_once(const Submission& submission);
     bool shows_large_groups(const cl::Error& error) const;
     void use_smaller_groups();

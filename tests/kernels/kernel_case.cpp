@@ -57,21 +57,54 @@ std::unique_ptr<KernelCase> make_case(std::string_view kernel, int items, Flavou
     return made;
 }
 
+namespace {
+
+/// Several launches in a task build faster than as many tasks, and this many arguments still fit
+/// into the least that OpenCL grants an entry point (CL_DEVICE_MAX_PARAMETER_SIZE, 1024 bytes).
+constexpr std::size_t kMostArguments = 80;
+
+std::size_t arguments_of(const Launch& launch) {
+    constexpr std::size_t kOfSegments = 3;
+    return launch.arguments.size() + kOfSegments;
+}
+
+/// Where each task's cases begin, and the end.
+std::vector<std::size_t> group(std::span<const std::unique_ptr<KernelCase>> cases) {
+    std::vector<std::size_t> starts{0};
+    std::size_t arguments = 0;
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        const std::size_t own = arguments_of(cases[c]->launch);
+        if (arguments + own > kMostArguments && c > starts.back()) {
+            starts.push_back(c);
+            arguments = 0;
+        }
+        arguments += own;
+    }
+    starts.push_back(cases.size());
+    return starts;
+}
+
+}  // namespace
+
 void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& device,
                    int instance) {
-    std::vector<TaskBody> bodies(cases.size());
+    const std::vector<std::size_t> starts = group(cases);
+    std::vector<TaskBody> bodies(starts.size() - 1);
     std::vector<const TaskBody*> pointers;
     Step step;
     scheduler::Plan plan;
-    for (std::size_t c = 0; c < cases.size(); ++c) {
-        KernelCase& one = *cases[c];
-        bodies[c] = {std::string(one.launch.kernel->name), 0, {one.launch}};
-        pointers.push_back(&bodies[c]);
-        auto task = step.add(bodies[c], 0, {0, one.segments.strip_count});
-        for (const auto& buffer : one.buffers) {
-            task.updates(*buffer, 0, static_cast<int>(buffer->count()));
+    for (std::size_t t = 0; t < bodies.size(); ++t) {
+        const auto own = cases.subspan(starts[t], starts[t + 1] - starts[t]);
+        bodies[t].name = std::string(own.front()->launch.kernel->name);
+        for (const auto& one : own) bodies[t].launches.push_back(one->launch);
+        pointers.push_back(&bodies[t]);
+        auto task = step.add(bodies[t], 0, {0, kStrips});
+        for (const auto& one : own) {
+            for (const auto& buffer : one->buffers) {
+                task.updates(*buffer, 0, static_cast<int>(buffer->count()));
+            }
         }
-        plan.placements.push_back({static_cast<double>(c), static_cast<double>(c + 1), 0});
+        plan.placements.push_back({static_cast<double>(t), static_cast<double>(t + 1), 0});
     }
     step.seal();
     plan.order_by_start(1);

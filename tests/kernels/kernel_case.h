@@ -59,7 +59,7 @@ std::unique_ptr<KernelCase> make_case(std::string_view kernel, int items, Flavou
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed);
 
-/// Runs all items of all cases on a device, each case as a task of its own.
+/// Runs all items of all cases on a device, several cases to a task.
 void run_on_device(std::span<const std::unique_ptr<KernelCase>> cases, Device& device,
                    int instance = 0);
 

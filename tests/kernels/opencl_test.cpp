@@ -8,8 +8,8 @@
 
 #include "kernels/registry.h"
 #include "runtime/device_list.h"
+#include "runtime/opencl/entry_points.h"
 #include "runtime/opencl/opencl_device.h"
-#include "runtime/opencl/program.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -39,46 +39,50 @@ std::vector<std::unique_ptr<KernelCase>> all_cases(Flavour flavour) {
     return cases;
 }
 
-class ProgramTexts : public testing::Test {
+class EntryTexts : public testing::Test {
 protected:
-    ProgramTexts() {
+    EntryTexts() {
         for (const auto& one : cases_) {
             bodies_.push_back({std::string(one->launch.kernel->name), 0, {one->launch}});
         }
-        for (const TaskBody& body : bodies_) pointers_.push_back(&body);
     }
 
-    ProgramText text(const EntryOptions& options) const { return program_text(pointers_, options); }
+    std::vector<EntryPoints> made(const EntryOptions& options) const {
+        std::vector<EntryPoints> all;
+        for (const TaskBody& body : bodies_) all.push_back(entry_points(body, options));
+        return all;
+    }
 
 private:
     std::vector<std::unique_ptr<KernelCase>> cases_ = all_cases(Flavour::kRandom);
     std::vector<TaskBody> bodies_;
-    std::vector<const TaskBody*> pointers_;
 };
 
 /// What NVIDIA's compiler refuses, and others take for an extension.
-TEST_F(ProgramTexts, DefineNoMacroOfAnyNumberOfArguments) {
-    std::istringstream lines(text({}).text);
-    int definitions = 0;
-    for (std::string line; std::getline(lines, line);) {
-        const bool is_definition = line.starts_with("#define");
-        definitions += is_definition ? 1 : 0;
-        EXPECT_FALSE(is_definition && line.find("...") != std::string::npos) << line;
-        EXPECT_FALSE(line.starts_with("WEFT_KERNEL(")) << line;
+TEST_F(EntryTexts, DefineNoMacroOfAnyNumberOfArguments) {
+    for (const EntryPoints& points : made({})) {
+        std::istringstream lines(program_text(points));
+        int definitions = 0;
+        for (std::string line; std::getline(lines, line);) {
+            const bool is_definition = line.starts_with("#define");
+            definitions += is_definition ? 1 : 0;
+            EXPECT_FALSE(is_definition && line.find("...") != std::string::npos) << line;
+            EXPECT_FALSE(line.starts_with("WEFT_KERNEL(")) << line;
+        }
+        EXPECT_GT(definitions, 10);
     }
-    EXPECT_GT(definitions, 10);
 }
 
-TEST_F(ProgramTexts, HaveNoGroupsForMoreParametersThanThereMayBe) {
+TEST_F(EntryTexts, HaveNoGroupsForMoreParametersThanThereMayBe) {
     const std::size_t some = 120;
     const auto count = [&](std::size_t most) {
-        const ProgramText made = text({EntryStyle::kPerGroup, 16, most});
-        return std::ranges::count(made.entries, EntryStyle::kPerGroup, &BodyEntries::style);
+        const auto all = made({EntryStyle::kPerGroup, 16, most});
+        return std::ranges::count(all, EntryStyle::kPerGroup, &EntryPoints::style);
     };
     EXPECT_EQ(count(0), 0);
     EXPECT_GT(count(some), 0);
     EXPECT_LT(count(some), count(1 << 20));
-    EXPECT_EQ(count(1 << 20), std::ssize(text({}).entries));
+    EXPECT_EQ(count(1 << 20), std::ssize(made({})));
 }
 
 TEST_P(OpenClKernels, HaveTheBitsOfTheScalarOnes) {

@@ -23,7 +23,8 @@ namespace weft {
 namespace {
 
 /// The kernels' binaries are kept for the next run.
-constexpr const char* kFirstTimeNote = " (the first time, OpenCL builds its kernels: some seconds)";
+constexpr const char* kFirstTimeNote =
+    " (the first time, OpenCL builds its kernels: seconds, with contact up to a minute)";
 
 }  // namespace
 

@@ -1,13 +1,13 @@
+#include "runtime/opencl/entry_points.h"
+
 #include <algorithm>
 #include <cctype>
-#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "kernels/sources.h"
 #include "runtime/error.h"
-#include "runtime/opencl/program.h"
 #include "runtime/split.h"
 
 namespace weft {
@@ -45,21 +45,12 @@ std::string with_kernels_as_functions(std::string_view text) {
 /// compiler's messages name the real file.
 class HeaderText {
 public:
-    void add_kernel(const kernels::KernelInfo& kernel) {
-        const kernels::SourceFile* file = kernels::find_source(kernel.file);
-        if (file == nullptr) {
-            throw Misuse("kernel '" + std::string(kernel.space) + std::string(kernel.name) +
-                         "' has no text for OpenCL: give its header to weft_add_kernels()");
-        }
-        add(*file);
+    void add(const kernels::SourceFile& file) {
+        if (seen_.emplace(file.path).second) append(file);
     }
     std::string text() const { return out_.str(); }
 
 private:
-    void add(const kernels::SourceFile& file) {
-        if (seen_.emplace(file.path).second) append(file);
-    }
-
     void add_included(std::string_view name, const kernels::SourceFile& by) {
         // Headers of the C++ targets are not embedded, and nothing here needs them.
         if (name.starts_with("kernels/platform/") || name == "kernels/sources.h") {
@@ -301,45 +292,46 @@ EntryStyle style_of(const TaskBody& body, const EntryOptions& options) {
     return fits ? options.style : EntryStyle::kPerColour;
 }
 
-/// Entry points, each once, whatever number of bodies want it.
-class EntryPoints {
-public:
-    /// Gives its name.
-    std::string add(const std::string& attributes, const std::string& definition) {
-        const auto [known, is_new] =
-            names_.try_emplace(definition, "entry_" + std::to_string(names_.size()));
-        if (is_new) out_ << "__kernel " << attributes << "void " << known->second << definition;
-        return known->second;
+std::string file_of(const kernels::KernelInfo& kernel) {
+    if (kernels::find_source(kernel.file) == nullptr) {
+        throw Misuse("kernel '" + std::string(kernel.space) + std::string(kernel.name) +
+                     "' has no text for OpenCL: give its header to weft_add_kernels()");
     }
-    std::string text() const { return out_.str(); }
+    return std::string(kernel.file);
+}
 
-private:
-    std::map<std::string, std::string> names_;
-    std::ostringstream out_;
-};
+/// Adds an entry point. It is named after its first kernel, for those who look at it in other
+/// tools.
+void add(EntryPoints& points, std::string_view kernel, const std::string& attributes,
+         const std::string& parameters_and_body) {
+    const std::string number = std::to_string(points.names.size());
+    const std::string name = "run_" + std::string(kernel) + '_' + number;
+    points.names.push_back(name);
+    points.definitions += "__kernel " + attributes + "void " + name + parameters_and_body;
+}
 
 }  // namespace
 
-ProgramText program_text(std::span<const TaskBody* const> bodies, const EntryOptions& options) {
-    HeaderText headers;
-    EntryPoints entries;
-    ProgramText program;
-    for (const TaskBody* body : bodies) {
-        for (const Launch& launch : body->launches) headers.add_kernel(*launch.kernel);
-        const EntryStyle style = style_of(*body, options);
-        BodyEntries& added = program.entries.emplace_back(style);
-        if (style == EntryStyle::kPerColour) {
-            for (const Launch& launch : body->launches) {
-                added.names.push_back(entries.add("", per_colour_entry(launch)));
-            }
-        } else {
-            added.names.push_back(entries.add(
-                group_attribute(style == EntryStyle::kPerStrip ? 1 : options.group_size),
-                whole_body_entry(*body, style)));
+EntryPoints entry_points(const TaskBody& body, const EntryOptions& options) {
+    EntryPoints points{style_of(body, options), {}, "", {}};
+    for (const Launch& launch : body.launches) points.files.push_back(file_of(*launch.kernel));
+    if (points.style == EntryStyle::kPerColour) {
+        for (const Launch& launch : body.launches) {
+            add(points, launch.kernel->name, "", per_colour_entry(launch));
         }
+        return points;
     }
-    program.text = headers.text() + "#line 1 \"entry points\"\n" + entries.text();
-    return program;
+    const int size = points.style == EntryStyle::kPerStrip ? 1 : options.group_size;
+    const std::string_view first =
+        body.launches.empty() ? "nothing" : body.launches.front().kernel->name;
+    add(points, first, group_attribute(size), whole_body_entry(body, points.style));
+    return points;
+}
+
+std::string program_text(const EntryPoints& points) {
+    HeaderText headers;
+    for (const std::string& file : points.files) headers.add(*kernels::find_source(file));
+    return headers.text() + "#line 1 \"entry points\"\n" + points.definitions;
 }
 
 }  // namespace weft
