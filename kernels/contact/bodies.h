@@ -1,7 +1,7 @@
 #ifndef WEFT_KERNELS_CONTACT_BODIES_H
 #define WEFT_KERNELS_CONTACT_BODIES_H
 
-// The momentum of free bodies in contact (descent/free_bodies.h has those that touch nothing). A
+// The momentum of free bodies in scenes with contact (bodies/free_bodies.h: in those without). A
 // motion of a whole body of mass M, a shift t and a turn w, is unseen by its elements and, but for
 // how far these have slid, by its contacts with itself; with c and W of contact/rows.h and G the
 // sum of the gradients that contacts with others leave at the body, it changes E by no more than
@@ -10,9 +10,8 @@
 //
 // up to second order in w, whatever the other bodies do meanwhile. m = (t, w), J has 1 for shifts
 // and the inertia of turns, and J lag is what is missing of the momentum: the mean of x~ - x, and
-// of r x (x~ - x), see moments.h. The minimum of that is the step that the body takes: all of the
-// lag along surfaces without friction, and hardly anything of it into them. Turns of a body that
-// touches nothing are left to its elements.
+// of r x (x~ - x), see bodies/moments.h. The minimum of that is the step that the body takes: all
+// of the lag along surfaces without friction, and hardly anything of it into them.
 //
 // Where bodies of one group touch each other, what they lack in common is left, as each is held up
 // by the others. So the group takes one more step as a whole (groups.h), unseen by contacts within
@@ -34,7 +33,7 @@
 #define WEFT_STRAIN_PARTS 7
 #define WEFT_BODY_PARTS 12
 
-#include "kernels/contact/moments.h"
+#include "kernels/bodies/free_bodies.h"
 #include "kernels/contact/pushes.h"
 
 WEFT_KERNELS_BEGIN
@@ -84,7 +83,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
     return sum;
 }
 
-/// As add_lags, with what contacts do.
+/// What is missing of the momentum of columns, and what contacts do.
 /// standing       [columns] as collect_pushes leaves it, as are rows to other_points
 /// column_bodies  [columns] of which body each is
 /// masses         [bodies] [kg]
@@ -247,7 +246,9 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     own_form.shift = diagonal_sym(splat(1.0f));
     own_form.turn = inertia_of(body);
     body_motion step = solve_sym6(add_scaled_sym6(sum.block, own_form, splat(1.0f)), sum.lag);
-    step.turn = scale(step.turn, mass > zero ? splat(1.0f) : zero);
+    const real3 alone = has_moved ? no_motion().turn : missing_turn(body);
+    const real touching = mass > zero ? splat(1.0f) : zero;
+    step.turn = add_scaled(scale(step.turn, touching), alone, splat(1.0f) - touching);
     const sym6 form = add_scaled_sym6(sum.outside, own_form, splat(1.0f));
     const body_motion left = add_scaled_motion(sum.lag, multiply_sym6(form, step), splat(-1.0f));
     gone = add_scaled_motion(gone, step, splat(1.0f));
@@ -256,7 +257,7 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     store_rest(rests, body_count, i, form, left, mass);
 }
 
-/// Moves the vertices of free bodies; see shift_bodies.
+/// Moves the vertices of free bodies; see move_runs.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
 /// moments_of  [6 * (bodies + 1)] likewise

@@ -8,8 +8,8 @@
 // summed, with what it says at the positions at hand. How far bodies have gone since is all that a
 // round has to know besides.
 
+#include "kernels/bodies/runs.h"
 #include "kernels/contact/rows.h"
-#include "kernels/descent/free_bodies.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -42,7 +42,7 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// For each column of a free body's vertices the contacts that they have with others.
 /// positions    [vertices] xyz [m], where contacts are seen
 /// targets      [vertices] xyz: x~ [m]
-/// members, shares, column_rows  of the columns: see add_lags
+/// members, shares, column_rows  of the columns: see bodies/runs.h
 /// bodies       [vertices] which of the free bodies each belongs to; `body_count`: to none
 /// leaders      [substeps * bodies] the first one of each body's group
 /// rows, counts, corner0 to corner3, normals, weights, measures  as in gather_contacts

@@ -44,7 +44,7 @@ WEFT_INLINE sym6 strain_stiffness(real mu, real lambda) {
 }
 
 /// The part of one column in the virial of its body.
-/// positions, members, shares, rows  as in add_lags
+/// positions, members, shares, rows  as in add_moments
 /// gradients    [3 * vertices] column-major: of the elements' energy [N]
 /// origins      as in add_moments
 /// partials     [2 * columns] written, column-major: as a strain [J]

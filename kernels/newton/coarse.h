@@ -15,7 +15,7 @@
 WEFT_KERNELS_BEGIN
 
 /// T^T r. Items are aggregates.
-/// rows        [2 * aggregates] first entry, number of rows (see free_bodies.h)
+/// rows        [2 * aggregates] first entry, number of rows (see bodies/runs.h)
 /// members     [entries] vertices; a row is filled up with a vertex of any aggregate
 /// shares      [entries] 1, or 0 where a row is filled up
 /// restricted  [aggregates] written: xyz, w = 0

@@ -4,7 +4,7 @@
 
 namespace weft {
 
-/// In which order the vertices of free bodies are summed up: see kernels/descent/free_bodies.h.
+/// In which order the vertices of free bodies are summed up: see kernels/bodies/runs.h.
 struct BodyColumns {
     Buffer<int>& members;
     Buffer<float>& shares;

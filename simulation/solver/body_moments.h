@@ -1,28 +1,23 @@
 #pragma once
 
-#include "runtime/planning/regions.h"
-#include "runtime/step.h"
-#include "simulation/solver/free_bodies.h"
+#include "simulation/solver/moment_sums.h"
 
 namespace weft {
 
-/// Where the mass of free bodies is and where it should be, as their motions want it
-/// (kernels/contact/moments.h).
+/// Where the mass of free bodies is and where it should be, body by body: what several tasks read
+/// that see bodies as wholes.
 class BodyMoments {
 public:
     /// bodies must outlive this. first_run, counts: [bodies] of each one's runs
     BodyMoments(FreeBodies& bodies, Buffer<int>& first_run, Buffer<float>& counts);
 
-    /// Adds them up, run by run, at these positions, those of all vertices,
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
-    /// which needs this of a region, besides the positions and the targets;
-    void add_sum_accesses(Step::Adding& task, const Region& region);
-    /// and then body by body. all: the bodies
+    /// First they are added up by runs,
+    MomentSums& sums() { return sums_; }
+    /// and then this does so by bodies. all: the bodies
     Launch weigh(const Segments& all);
     void add_weigh_accesses(Step::Adding& task);
 
-    /// [columns], [6 * (bodies + 1)] see the kernels
-    Buffer<int>& origins() { return origins_; }
+    /// [6 * (bodies + 1)] see the kernel
     Buffer<float4>& moments() { return moments_; }
     void add_reads(Step::Adding& task);
 
@@ -30,10 +25,7 @@ private:
     FreeBodies& bodies_;
     Buffer<int>& first_run_;
     Buffer<float>& counts_;
-    int sum_count_;
-    Buffer<int> origins_;      ///< [columns]
-    Buffer<float4> partials_;  ///< [parts * columns]
-    Buffer<float4> sums_;      ///< [parts * sum_count]
+    MomentSums sums_;
     Buffer<float4> moments_;
 };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "kernels/descent/free_bodies.h"
+#include "kernels/bodies/free_bodies.h"
 #include "kernels/descent/substep.h"
 
 namespace weft {
@@ -18,6 +18,8 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     if (contact && free_bodies_) {
         touching_ = std::make_unique<TouchingBodies>(model, *free_bodies_, *contact, multipliers,
                                                      first_kind + 1);
+    } else if (free_bodies_) {
+        lone_ = std::make_unique<LoneBodies>(*free_bodies_);
     }
     if (model.obstacles || touching_)
         pushed_ = std::make_unique<Buffer<float4>>("pushed", targets.count());
@@ -40,8 +42,8 @@ void BodyMomentum::look_at(Buffer<float4>& positions) {
     positions_ = &positions;
     if (touching_)
         sums_.launches = touching_->sum(positions, targets_, sums_.kind);
-    else if (free_bodies_)
-        sums_.launches = free_bodies_->sum(positions, targets_);
+    else if (lone_)
+        sums_.launches = lone_->sums().sum(positions, targets_);
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
@@ -53,17 +55,18 @@ void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int 
         const int last = model_.vertices().item(region.end);
         auto task = step.add(sums_, iteration, region.strips(), region.id);
         task.reads(targets_, first, last).reads(*positions_, first, last);
-        free_bodies_->add_sum_accesses(task, region.begin, region.end);
+        lone_->sums().add_sum_accesses(task, region);
+        lone_->sums().add_origin_reads(task, region, *positions_);
     }
 }
 
-/// A shift may lead into what pushes.
+/// A motion may lead into what pushes.
 void BodyMomentum::add_moves(std::vector<Launch>& launches) {
     if (!free_bodies_) return;
     if (touching_)
         launches.push_back(touching_->move(model_, targets_));
     else
-        std::ranges::move(free_bodies_->shift(model_, targets_), std::back_inserter(launches));
+        std::ranges::move(lone_->move(model_, targets_), std::back_inserter(launches));
     if (!pushed_) return;
     launches.push_back(
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
@@ -81,7 +84,7 @@ void BodyMomentum::add_move_accesses(Step::Adding& task, int first, int last) {
     if (touching_)
         touching_->add_motion_accesses(task);
     else
-        free_bodies_->add_shift_accesses(task);
+        lone_->add_move_accesses(task);
     if (contact_) contact_->add_truncation_accesses(task, first, last);
     task.updates(*model_.positions, first, last).updates(targets_, first, last);
 }

@@ -7,12 +7,13 @@
 #include "runtime/step.h"
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
+#include "simulation/solver/lone_bodies.h"
 #include "simulation/solver/touching_bodies.h"
 
 namespace weft {
 
 /// What keeps the momentum of bodies that nothing holds, however far iterations get. Behind the
-/// last one they are moved as wholes: by what is missing (kernels/descent/free_bodies.h), and in
+/// last one they are moved as wholes: by what is missing (kernels/bodies/free_bodies.h), and in
 /// scenes with contact as far as what touches them lets them (kernels/contact/bodies.h). Pushes by
 /// obstacles are no loss: they move x~ along, which is to be told behind each iteration.
 class BodyMomentum {
@@ -51,6 +52,7 @@ private:
     Buffer<float4>* positions_ = nullptr;
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
     std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
+    std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or contacts
     std::unique_ptr<Buffer<float4>> pushed_;    ///< null: nothing pushes
     TaskBody sums_;                             ///< empty: no free bodies
 };

@@ -46,13 +46,13 @@ bool BodyStrains::weigh(const Model& model, const Buffer<int>& body_of) {
     return has_any;
 }
 
-std::vector<Launch> BodyStrains::sum(Buffer<float4>& positions, BodyMoments& moments) {
+std::vector<Launch> BodyStrains::sum(Buffer<float4>& positions, Buffer<int>& origins) {
     const BodyColumns columns = bodies_.columns();
     std::vector<Launch> launches = derivatives_.gather_gradients(kInnerPhase, positions);
     launches.push_back(launch(kernels::add_virials, columns.by_strip, positions,
                               derivatives_.sums(), columns.members, columns.shares, columns.rows,
-                              moments.origins(), partials_, columns.count, items_.count()));
-    launches.push_back(bodies_.add_columns(partials_, virials_, kParts, sum_count_));
+                              origins, partials_, columns.count, items_.count()));
+    launches.push_back(bodies_.add_columns(partials_, virials_, {kParts, sum_count_, 1}));
     return launches;
 }
 

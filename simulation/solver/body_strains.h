@@ -5,7 +5,6 @@
 
 #include "runtime/planning/regions.h"
 #include "runtime/step.h"
-#include "simulation/solver/body_moments.h"
 #include "simulation/solver/derivatives.h"
 #include "simulation/solver/free_bodies.h"
 
@@ -19,7 +18,8 @@ public:
                                            const Buffer<int>& body_of);
 
     /// Adds up what their elements do, run by run, at these positions, those of all vertices,
-    std::vector<Launch> sum(Buffer<float4>& positions, BodyMoments& moments);
+    /// from where moments are,
+    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<int>& origins);
     /// which needs this of a region, besides the positions.
     void add_sum_accesses(Step::Adding& task, const Region& region);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernels/descent/free_bodies.h"
+#include "kernels/bodies/runs.h"
 #include "scheduler/assert.h"
 #include "simulation/topology/components.h"
 
@@ -54,11 +54,7 @@ FreeBodies::FreeBodies(const Model& model, const std::vector<int>& bodies, std::
       rows_("free.rows", 2 * kColumns * runs_.size()),
       first_run_("free.first_run", runs_.size()),
       counts_("free.counts", runs_.size()),
-      run_of_("free.run_of", at(model.vertex_count())),
-      partials_("free.partials", kColumns * runs_.size()),
-      lags_("free.lags", 2 * runs_.size()),
-      shifts_("free.shifts", runs_.size() + 1),
-      vertices_(model.vertices()) {
+      run_of_("free.run_of", at(model.vertex_count())) {
     fill_strips(model);
     fill_bodies();
     fill_columns(model, bodies);
@@ -132,54 +128,34 @@ BodyColumns FreeBodies::columns() {
     return {*members_, *shares_, rows_, columns_by_strip_, column_count()};
 }
 
-std::vector<Launch> FreeBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets) {
-    return {launch(kernels::add_lags, columns_by_strip_, positions, targets, *members_, *shares_,
-                   rows_, partials_),
-            add_columns(partials_, lags_, 1, 0)};
-}
-
-FreeBodies::Sums::Sums(const FreeBodies& bodies, int part_count, int count_of_lags)
-    : parts(part_count),
-      lag_count(count_of_lags),
+FreeBodies::Sums::Sums(const FreeBodies& bodies, const SumLayout& kind)
+    : layout(kind),
       begin("free.sums", bodies.strip_runs_.count()),
-      starts("free.starts", at(parts) * bodies.runs_.size()),
+      starts("free.starts", at(layout.parts) * bodies.runs_.size()),
       places("free.places", starts.count()) {
     std::ranges::transform(bodies.strip_runs_.span(), begin.data(),
-                           [&](int run) { return parts * run; });
+                           [&](int run) { return layout.parts * run; });
     for (int run = 0; run < bodies.run_count(); ++run) {
-        for (int part = 0; part < parts; ++part) {
-            starts[at(parts * run + part)] = part * bodies.column_count() + kColumns * run;
-            places[at(parts * run + part)] = part * lag_count + run;
+        for (int part = 0; part < layout.parts; ++part) {
+            const std::size_t item = at(layout.parts * run + part);
+            starts[item] = part * bodies.column_count() + kColumns * run;
+            places[item] = part * layout.part_stride + run * layout.run_stride;
         }
     }
 }
 
-FreeBodies::Sums& FreeBodies::sums(int parts, int lag_count) {
+FreeBodies::Sums& FreeBodies::sums(const SumLayout& layout) {
     for (const auto& known : sums_) {
-        if (known->parts == parts && known->lag_count == lag_count) return *known;
+        if (known->layout == layout) return *known;
     }
-    return *sums_.emplace_back(std::make_unique<Sums>(*this, parts, lag_count));
+    return *sums_.emplace_back(std::make_unique<Sums>(*this, layout));
 }
 
-Launch FreeBodies::add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts,
-                               int lag_count) {
-    Sums& items = sums(parts, lag_count);
+Launch FreeBodies::add_columns(Buffer<float4>& partials, Buffer<float4>& sums,
+                               const SumLayout& layout) {
+    Sums& items = this->sums(layout);
     const Segments segments{&items.begin, 0, 1, runs_by_strip_.strip_count};
-    return launch(kernels::add_columns, segments, partials, items.starts, items.places, lags);
+    return launch(kernels::add_columns, segments, partials, items.starts, items.places, sums);
 }
-
-void FreeBodies::add_sum_accesses(Step::Adding& task, int first_strip, int end_strip) {
-    const auto [first, last] = runs_in(first_strip, end_strip);
-    task.updates(lags_, first, last);
-}
-
-std::vector<Launch> FreeBodies::shift(Model& model, Buffer<float4>& deviations) {
-    return {
-        launch(kernels::add_runs, runs_by_strip_, lags_, first_run_, counts_, shifts_, most_runs_),
-        launch(kernels::shift_bodies, vertices_, *model.positions, deviations, *model.velocities,
-               shifts_, run_of_, static_cast<float>(1.0 / model.h))};
-}
-
-void FreeBodies::add_shift_accesses(Step::Adding& task) { task.reads(lags_, 0, run_count()); }
 
 }  // namespace weft

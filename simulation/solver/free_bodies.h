@@ -10,9 +10,25 @@
 
 namespace weft {
 
-/// Keeps the momentum of bodies that nothing holds, whatever the sweeps left unfinished; see
-/// kernels/descent/free_bodies.h. A body is what hangs together by elements, attachments included;
-/// it is free where no vertex of it is held. Obstacles hold nothing: their pushes move x~, too.
+/// What each body's runs are; see kernels/bodies/runs.h.
+struct BodyRuns {
+    Buffer<int>& first;        ///< [runs] the first one of the same body
+    Buffer<float>& counts;     ///< [runs] of that body's runs
+    Buffer<int>& of_vertices;  ///< [vertices] the last one plus 1 for those that something holds
+    const Segments& by_strip;
+};
+
+/// What is summed up of each run, and where: part p of run r is number
+/// p * part_stride + r * run_stride.
+struct SumLayout {
+    int parts, part_stride, run_stride;
+
+    friend bool operator==(const SumLayout&, const SumLayout&) = default;
+};
+
+/// The bodies that nothing holds, and how they are summed up (kernels/bodies/runs.h). A body is
+/// what hangs together by elements, attachments included; it is free where no vertex of it is held.
+/// Obstacles hold nothing: their pushes move x~, too.
 class FreeBodies {
 public:
     /// Null where every vertex is held, or alone.
@@ -21,15 +37,6 @@ public:
     /// Whether some vertices of the strips belong to a free body.
     bool reach_into(int first_strip, int end_strip) const;
 
-    /// What adds up the lags of a region's strips,
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
-    void add_sum_accesses(Step::Adding& task, int first_strip, int end_strip);
-    /// and, when all strips have done so, what moves the vertices of a region's strips.
-    /// deviations  [vertices] x - x~
-    std::vector<Launch> shift(Model& model, Buffer<float4>& deviations);
-    void add_shift_accesses(Step::Adding& task);
-
-    // For sums of more than lags; see the kernels.
     struct Run {
         int body, strip, begin, end;  ///< vertices [begin, end)
     };
@@ -41,8 +48,9 @@ public:
     /// Those of strips [first_strip, end_strip).
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
-    /// Adds them up for each run, in so many parts.
-    Launch add_columns(Buffer<float4>& partials, Buffer<float4>& lags, int parts, int lag_count);
+    BodyRuns runs() { return {first_run_, counts_, run_of_, runs_by_strip_}; }
+    /// Adds up columns for each run.
+    Launch add_columns(Buffer<float4>& partials, Buffer<float4>& sums, const SumLayout& layout);
 
 private:
     FreeBodies(const Model& model, const std::vector<int>& bodies, std::vector<Run> runs);
@@ -53,12 +61,12 @@ private:
 
     /// Where columns of one kind are, and where their sums belong: an item per run and part.
     struct Sums {
-        Sums(const FreeBodies& bodies, int parts, int lag_count);
-        int parts, lag_count;
+        Sums(const FreeBodies& bodies, const SumLayout& kind);
+        SumLayout layout;
         Buffer<int> begin;           ///< [strips + 1]
         Buffer<int> starts, places;  ///< [items] see the kernel
     };
-    Sums& sums(int parts, int lag_count);
+    Sums& sums(const SumLayout& layout);
 
     std::vector<Run> runs_;
     int most_runs_ = 0;  ///< of one body
@@ -69,13 +77,10 @@ private:
     Buffer<int> first_run_;      ///< [runs]
     Buffer<float> counts_;       ///< [runs]
     Buffer<int> run_of_;         ///< [vertices]
-    Buffer<float4> partials_;    ///< [columns]
-    Buffer<float4> lags_;        ///< [runs + most_runs]
-    Buffer<float4> shifts_;      ///< [runs + 1]
     std::unique_ptr<Buffer<int>> members_;   ///< [entries]
     std::unique_ptr<Buffer<float>> shares_;  ///< [entries]
     std::vector<std::unique_ptr<Sums>> sums_;
-    Segments runs_by_strip_, columns_by_strip_, vertices_;
+    Segments runs_by_strip_, columns_by_strip_;
 };
 
 }  // namespace weft

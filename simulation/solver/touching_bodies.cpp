@@ -113,9 +113,10 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         int kind) {
     targets_ = &targets;
-    collect_.launches = moments_.sum(positions, targets);
+    collect_.launches = moments_.sums().sum(positions, targets);
     if (solids_)
-        std::ranges::move(solids_->sum(positions, moments_), std::back_inserter(collect_.launches));
+        std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
+                          std::back_inserter(collect_.launches));
     collect_.launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
     sums_again_ = {"momentum", kind, sum_round(1, 0)};
     strain_sums_ = {"momentum", kind, sum_round(1, 1)};
@@ -123,10 +124,10 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
 }
 
 std::vector<Launch> TouchingBodies::sum_round(int has_moved, int is_strain) {
-    return {
-        pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, has_moved,
-                    is_strain, partials_),
-        bodies_.add_columns(partials_, lags_, is_strain ? WEFT_STRAIN_PARTS : kParts, lag_count_)};
+    return {pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, has_moved,
+                        is_strain, partials_),
+            bodies_.add_columns(partials_, lags_,
+                                {is_strain ? WEFT_STRAIN_PARTS : kParts, lag_count_, 1})};
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
@@ -158,7 +159,7 @@ void TouchingBodies::add_collection(Step& step, const Region& region, Buffer<flo
     auto task = step.add(collect_, iteration, region.strips(), region.id);
     task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
     pushes_.add_collect_accesses(task, region, first, last);
-    moments_.add_sum_accesses(task, region);
+    moments_.sums().add_sum_accesses(task, region);
     if (solids_) solids_->add_sum_accesses(task, region);
 }
 

@@ -92,12 +92,11 @@ struct Runs {
 };
 
 void weigh_case(KernelCase& c) {
-    const int sum_count = c.items + Runs::kMost;
-    auto& sums = add_points(c, "sums", WEFT_MOMENT_PARTS * sum_count);
+    auto& sums = add_points(c, "sums", WEFT_MOMENT_PARTS * (c.items + Runs::kMost));
     Runs runs(c);
     auto& moments = c.add<float4>("moments", WEFT_MOMENT_PARTS * (c.items + 1));
     c.launch = launch(kernels::weigh_bodies, c.segments, sums, runs.first, runs.counts, moments,
-                      Runs::kMost, sum_count, c.items);
+                      Runs::kMost, c.items);
 }
 
 /// Some are spread along a line, or not at all.

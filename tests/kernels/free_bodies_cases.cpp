@@ -1,4 +1,4 @@
-#include "kernels/descent/free_bodies.h"
+#include "kernels/bodies/free_bodies.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -23,23 +23,6 @@ Buffer<int>& add_indices(KernelCase& c, const std::string& name, int count, int 
     return indices;
 }
 
-void lags_case(KernelCase& c) {
-    const int entries = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
-    auto& positions = add_points(c, "positions", c.items);
-    auto& targets = add_points(c, "targets", c.items);
-    auto& members = add_indices(c, "members", entries, c.items);
-    auto& shares = c.add<float>("shares", entries);
-    for (float& share : shares.span()) share = c.random.real(0.0f, 1.0f);
-    auto& rows = c.add<int>("rows", 2 * c.items);
-    for (int i = 0; i < c.items; ++i) {
-        rows[at(2 * i)] = i;
-        rows[at(2 * i + 1)] = kRows;
-    }
-    auto& partials = c.add<float4>("partials", c.items);
-    c.launch =
-        launch(kernels::add_lags, c.segments, positions, targets, members, shares, rows, partials);
-}
-
 void columns_case(KernelCase& c) {
     const int columns = c.items + WEFT_RUN_COLUMNS;
     auto& partials = add_points(c, "partials", columns);
@@ -50,23 +33,40 @@ void columns_case(KernelCase& c) {
     c.launch = launch(kernels::add_columns, c.segments, partials, starts, places, lags);
 }
 
-void runs_case(KernelCase& c) {
-    auto& lags = add_points(c, "lags", c.items + kRows);
+/// What runs have of bodies that are spread out, or lie in a point, all of them around it.
+Buffer<float4>& add_sums(KernelCase& c, int runs) {
+    auto& sums = add_points(c, "sums", WEFT_MOMENT_PARTS * runs);
+    const bool is_point = c.flavour == Flavour::kDegenerate;
+    for (int r = 0; r < runs; ++r) {
+        float4* parts = sums.data() + WEFT_MOMENT_PARTS * r;
+        const auto spread = [&] { return is_point ? 0.0f : c.random.real(4.0f, 8.0f); };
+        parts[0].w = spread();
+        parts[1].z = spread();
+        parts[2].w = spread();
+        if (!is_point) parts[1].x = parts[1].y = parts[1].w = c.random.real(-1.0f, 1.0f);
+    }
+    return sums;
+}
+
+void solve_case(KernelCase& c) {
+    auto& sums = add_sums(c, c.items + kRows);
     auto& first = add_indices(c, "first_run", c.items, c.items);
     auto& counts = c.add<float>("counts", c.items);
     for (float& count : counts.span()) count = static_cast<float>(c.random.integer(0, kRows));
-    auto& shifts = c.add<float4>("shifts", c.items);
-    c.launch = launch(kernels::add_runs, c.segments, lags, first, counts, shifts, kRows);
+    auto& motions = c.add<float4>("motions", 3 * (c.items + 1));
+    c.launch =
+        launch(kernels::solve_runs, c.segments, sums, first, counts, motions, kRows, c.items);
 }
 
-void shift_case(KernelCase& c) {
+void move_case(KernelCase& c) {
+    constexpr int kRuns = 3;
     auto& positions = add_points(c, "positions", c.items);
     auto& deviations = add_points(c, "deviations", c.items);
     auto& velocities = add_points(c, "velocities", c.items);
-    auto& shifts = add_points(c, "shifts", 4);
-    auto& runs = add_indices(c, "runs", c.items, 4);
-    c.launch = launch(kernels::shift_bodies, c.segments, positions, deviations, velocities, shifts,
-                      runs, 240.0f);
+    auto& motions = add_points(c, "motions", 3 * (kRuns + 1));
+    auto& runs = add_indices(c, "runs", c.items, kRuns + 1);
+    c.launch = launch(kernels::move_runs, c.segments, positions, deviations, velocities, motions,
+                      runs, 240.0f, kRuns);
 }
 
 void push_case(KernelCase& c) {
@@ -76,9 +76,8 @@ void push_case(KernelCase& c) {
     c.launch = launch(kernels::push_velocities, c.segments, positions, pushed, velocities, 240.0f);
 }
 
-const bool added = add_case("add_lags", lags_case) && add_case("add_columns", columns_case) &&
-                   add_case("add_runs", runs_case) && add_case("shift_bodies", shift_case) &&
-                   add_case("push_velocities", push_case);
+const bool added = add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
+                   add_case("move_runs", move_case) && add_case("push_velocities", push_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -1,6 +1,6 @@
 // Motions of bodies as wholes against double precision.
 
-#include "kernels/contact/motions.h"
+#include "kernels/bodies/motions.h"
 
 #include <gtest/gtest.h>
 

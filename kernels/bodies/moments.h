@@ -1,5 +1,5 @@
-#ifndef WEFT_KERNELS_CONTACT_MOMENTS_H
-#define WEFT_KERNELS_CONTACT_MOMENTS_H
+#ifndef WEFT_KERNELS_BODIES_MOMENTS_H
+#define WEFT_KERNELS_BODIES_MOMENTS_H
 
 // Where a free body's mass is, and where it should be: once per substep, behind its iterations, in
 // parts of the body's mass. With r from the centre of mass, the inertia of its turns is
@@ -9,8 +9,8 @@
 // are too coarse for squares of coordinates far from the origin.
 #define WEFT_MOMENT_PARTS 6
 
-#include "kernels/contact/motions.h"
-#include "kernels/descent/free_bodies.h"
+#include "kernels/bodies/motions.h"
+#include "kernels/bodies/runs.h"
 
 WEFT_KERNELS_BEGIN
 
@@ -38,7 +38,7 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     return a;
 }
 
-/// table  [6 * rows] column-major
+/// table  [6 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -49,13 +49,14 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
 }
 
-WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, integer k) {
+/// The parts of row k, of which the next one is so many further.
+WEFT_INLINE moments gather_parts(WEFT_GLOBAL const float4* table, int stride, integer k) {
     const real4 a = gather4(table, k);
-    const real4 b = gather4(table + rows, k);
-    const real4 c = gather4(table + 2 * rows, k);
-    const real4 x = gather4(table + 3 * rows, k);
-    const real4 y = gather4(table + 4 * rows, k);
-    const real4 z = gather4(table + 5 * rows, k);
+    const real4 b = gather4(table + stride, k);
+    const real4 c = gather4(table + 2 * stride, k);
+    const real4 x = gather4(table + 3 * stride, k);
+    const real4 y = gather4(table + 4 * stride, k);
+    const real4 z = gather4(table + 5 * stride, k);
     moments m;
     m.centre = xyz(a);
     m.spread = make_sym(a.w, b.x, b.y, b.z, b.w, c.w);
@@ -65,8 +66,14 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, in
     return m;
 }
 
+WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, integer k) {
+    return gather_parts(table, rows, k);
+}
+
 /// The part of one column.
-/// positions, targets, members, shares, rows  as in add_lags
+/// positions  [vertices] xyz: x [m]
+/// targets    [vertices] xyz: x~ [m]
+/// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
 /// partials  [6 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
@@ -88,24 +95,33 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
     store_moments(partials, column_count, i, sum);
 }
 
-/// Adds up the runs of each body, and sees them from its centre of mass.
-/// sums       [6 * sum_count] of the runs and more rows, column-major
-/// first_run, counts, most_runs  as in solve_bodies; sum_count is that more than there are runs
-/// moments_of [6 * (bodies + 1)] written, column-major; of the last one nothing
-WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
-            WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
-            int sum_count, int body_count) {
+/// The moments of a body, from its centre of mass.
+/// sums   [6 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// first  its first run
+/// count  of its runs, most_runs at the most
+WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
+                                int most_runs) {
+    const integer start = address(first * splat_whole(WEFT_MOMENT_PARTS));
     moments sum = no_moments();
-    const integer first = load_index(first_run, i);
-    const real count = load(counts, i);
     for (int k = 0; k < most_runs; ++k) {
         const real own = splat((float)k) < count ? splat(1.0f) : splat(0.0f);
-        sum = add_share_of_moments(sum, gather_moments(sums + k, sum_count, first), own);
+        sum = add_share_of_moments(sum, gather_parts(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
     }
     const real3 back = scale(sum.offset, splat(-1.0f));
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
     sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));
     sum.offset = no_motion().shift;
+    return sum;
+}
+
+/// Adds up the runs of each body.
+/// sums               as in sum_of_runs
+/// first_run, counts  [bodies]
+/// moments_of         [6 * (bodies + 1)] written, column-major; of the last one nothing
+WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
+            WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
+            int body_count) {
+    const moments sum = sum_of_runs(sums, load_whole(first_run, i), load(counts, i), most_runs);
     store_moments(moments_of, body_count + 1, i, sum);
 }
 
@@ -113,8 +129,7 @@ WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int*
 /// line or in a point, turns about that move nothing: a little is added, so that they stay finite.
 WEFT_INLINE sym3 inertia_of(moments m) {
     const real size = trace_sym(m.spread);
-    return add_diagonal(scale_sym(m.spread, splat(-1.0f)),
-                        size + splat(2e-5f) * size + splat(1e-12f));
+    return add_diagonal(scale_sym(m.spread, splat(-1.0f)), size + splat(2e-5f) * size);
 }
 
 /// The mean of (R r - r) r^T, of the mean of r r^T.

@@ -1,5 +1,5 @@
-#ifndef WEFT_KERNELS_CONTACT_MOTIONS_H
-#define WEFT_KERNELS_CONTACT_MOTIONS_H
+#ifndef WEFT_KERNELS_BODIES_MOTIONS_H
+#define WEFT_KERNELS_BODIES_MOTIONS_H
 
 // Motions of a body as a whole: a shift of its centre of mass, and a turn about it. A turn w is a
 // vector along the axis, and stands for the rotation whose Rodrigues parameters are w/2 (Cayley's
@@ -115,7 +115,7 @@ WEFT_INLINE sym6 form_of_arms(sym3 form, mat3 arm, mat3 other_arm) {
     return a;
 }
 
-/// Where a strain leads what is at a lever: E r (strains.h).
+/// Where a strain leads what is at a lever: E r (contact/strains.h).
 WEFT_INLINE real3 way_of_strain(body_motion e, real3 r) {
     return make3(e.shift.x * r.x + e.turn.z * r.y + e.turn.y * r.z,
                  e.turn.z * r.x + e.shift.y * r.y + e.turn.x * r.z,

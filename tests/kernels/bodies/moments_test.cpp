@@ -1,7 +1,7 @@
 // Where bodies are, and what is missing of their momentum, against double precision; and what they
 // do about it.
 
-#include "kernels/contact/moments.h"
+#include "kernels/bodies/moments.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ struct Cloud {
         counts[0] = 1.0f;
         for (int part = 0; part < WEFT_MOMENT_PARTS; ++part) {
             starts[static_cast<std::size_t>(part)] = kColumns * part;
-            places[static_cast<std::size_t>(part)] = 2 * part;
+            places[static_cast<std::size_t>(part)] = part;
         }
         for (int c = 0; c < kColumns; ++c) {
             const auto k = static_cast<std::size_t>(c);
@@ -60,7 +60,7 @@ struct Cloud {
             kColumns);
         run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
             WEFT_MOMENT_PARTS);
-        run(launch(kernels::weigh_bodies, Segments{}, sums, first_run, counts, table, 1, 2, 1), 1);
+        run(launch(kernels::weigh_bodies, Segments{}, sums, first_run, counts, table, 1, 1), 1);
         return gather_moments(table.data(), 2, 0);
     }
 
