@@ -113,6 +113,7 @@ void run_comparison(CompareOptions options) {
         std::cout << json_text(json) << std::endl;
     else
         std::cout << to_text(comparison) << std::flush;
+    print_warnings(comparison.warnings);
     warn_of_different_states(comparison);
 }
 
@@ -136,7 +137,8 @@ void add_compare_command(CLI::App& app) {
         "change of the machine's speed meets all alike. The first 3 frames do not count. A "
         "frame's\n"
         "time is all that it takes but output; planned and measured are makespans.\n"
-        "efficiency = the mixture's speed / the sum of the speeds of its devices alone.\n\n"
+        "efficiency = the mixture's speed / the sum of the speeds of its devices alone.\n"
+        "Frames whose result is to be doubted are told, and go on.\n\n"
         "Example:\n"
         "  weft compare scenes/tablecloth.toml --devices cpu/1,opencl:0/1,cpu/2,cpu/1+opencl:0/1");
     command->callback([options] { run_comparison(*options); });

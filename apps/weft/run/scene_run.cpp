@@ -256,7 +256,7 @@ Checkpoint SceneRun::checkpoint() const {
 void SceneRun::say_losses(FrameRecord& record) {
     const auto& losses = simulation_->losses();
     for (; losses_said_ < losses.size(); ++losses_said_) {
-        const std::string text = text_of(losses[losses_said_]);
+        const std::string text = text_of(losses[losses_said_], *simulation_);
         std::cerr << fmt::format("weft: warning: {}\n", text);
         record.warnings.push_back(text);
     }
@@ -267,23 +267,19 @@ void SceneRun::say_troubles(Warnings& record) {
     const auto& troubles = simulation_->troubles();
     for (; troubles_said_ < troubles.size(); ++troubles_said_) {
         const Trouble& trouble = troubles[troubles_said_];
-        const std::string text = fmt::format("frame {}: {}", trouble.frame, trouble.what);
+        const std::string text = text_of(trouble);
         std::cerr << fmt::format("weft: warning: {}\n", text);
         summary_->warn(text);
         record.push_back(trouble.what);
     }
 }
 
-std::string SceneRun::text_of(const LostDevice& lost) const {
-    const auto& device = simulation_->devices()[static_cast<std::size_t>(lost.device)];
-    return fmt::format("device {} ({}) was lost in frame {}, the others go on without it: {}",
-                       lost.device, device->info().name, lost.frame, lost.why);
-}
-
 RunSummary SceneRun::finish() {
     simulation_->save_costs();
     RunSummary summary = summary_->summary();
-    for (const LostDevice& lost : simulation_->losses()) summary.losses.push_back(text_of(lost));
+    for (const LostDevice& lost : simulation_->losses()) {
+        summary.losses.push_back(text_of(lost, *simulation_));
+    }
     const Warnings more = all_warnings();
     summary.warnings.insert(summary.warnings.begin(), more.begin(), more.end());
     summary.finished = frames_done() == scene_.frames;

@@ -48,7 +48,6 @@ private:
     void say_losses(FrameRecord& record);
     FrameRecord advance();
     void say_troubles(Warnings& record);
-    std::string text_of(const LostDevice& lost) const;
 
     RunOptions options_;
     bool keeps_checkpoint_;

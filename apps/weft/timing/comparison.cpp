@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "runtime/split.h"
@@ -24,6 +25,17 @@ const ComparisonRow* find_row(const std::vector<ComparisonRow>& rows, const std:
     return row == rows.end() ? nullptr : &*row;
 }
 
+/// Device lists end in the same state, and so mostly say the same.
+Warnings each_once(const std::vector<ComparisonRow>& rows) {
+    Warnings all;
+    for (const ComparisonRow& row : rows) {
+        std::ranges::copy_if(row.warnings, std::back_inserter(all), [&](const std::string& text) {
+            return std::ranges::find(all, text) == all.end();
+        });
+    }
+    return all;
+}
+
 }  // namespace
 
 std::vector<std::string> devices_of(const std::string& list) { return split(list, '+'); }
@@ -43,11 +55,13 @@ ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample
     row.utilisation = quantile(frames, &FrameSample::utilisation, 0.5);
     row.energy = end.energy;
     row.state_hash = end.hash;
+    row.warnings = end.warnings;
     return row;
 }
 
 Comparison compare_rows(const std::string& scene, std::vector<ComparisonRow> rows) {
-    Comparison comparison{scene, std::move(rows), {}, {}, {}};
+    Warnings warnings = each_once(rows);
+    Comparison comparison{scene, std::move(rows), {}, {}, {}, std::move(warnings)};
     const auto mixture =
         std::find_if(comparison.rows.rbegin(), comparison.rows.rend(),
                      [](const ComparisonRow& r) { return devices_of(r.devices).size() > 1; });
@@ -91,6 +105,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
     set("best_single", comparison.best_single);
     set("speedup_over_best_single", comparison.speedup_over_best_single);
     set("efficiency", comparison.efficiency);
+    json["warnings"] = comparison.warnings;
     return json;
 }
 

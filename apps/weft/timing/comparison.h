@@ -21,6 +21,7 @@ struct ComparisonRow {
     double utilisation = 0.0;
     double energy = 0.0;  ///< at the end [J]
     std::string state_hash;
+    Warnings warnings;
 };
 
 /// frames: those that count.
@@ -36,6 +37,7 @@ struct Comparison {
     std::optional<std::string> best_single;  ///< the fastest of the mixture's devices alone
     std::optional<double> speedup_over_best_single;
     std::optional<double> efficiency;  ///< the mixture's speed / the sum of its devices' own speeds
+    Warnings warnings;                 ///< of the rows, each once
 };
 
 Comparison compare_rows(const std::string& scene, std::vector<ComparisonRow> rows);

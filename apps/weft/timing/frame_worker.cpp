@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 
+#include "apps/weft/output/warnings.h"
 #include "apps/weft/process/answer.h"
 #include "runtime/error.h"
 #include "runtime/io/system_call.h"
@@ -56,21 +58,35 @@ std::string frame_line(Simulation& simulation) {
                        busy / frame.measured_makespan, taking_part > 1 ? 1 : 0);
 }
 
-std::string end_line(const Simulation& simulation) {
-    return fmt::format("{} {}", simulation.hash(), simulation.energies().total());
+/// A simulation, and what was wrong with its scene.
+struct Served {
+    std::optional<Simulation> simulation;
+    Warnings warnings;
+};
+
+std::string end_line(const Served& served) {
+    Warnings warnings = served.warnings;
+    const Simulation& simulation = *served.simulation;
+    for (const LostDevice& lost : simulation.losses()) {
+        warnings.push_back(text_of(lost, simulation));
+    }
+    for (const Trouble& trouble : simulation.troubles()) warnings.push_back(text_of(trouble));
+    return nlohmann::json{{"hash", simulation.hash()},
+                          {"energy", simulation.energies().total()},
+                          {"warnings", warnings}}
+        .dump();
 }
 
-std::string reply(char command, Simulation& simulation) {
-    if (command == kFrame) return frame_line(simulation);
-    return command == kState ? end_line(simulation) : "";
+std::string reply(char command, Served& served) {
+    if (command == kFrame) return frame_line(*served.simulation);
+    return command == kState ? end_line(served) : "";
 }
 
-void set_up(std::optional<Simulation>& simulation, const RunOptions& options) {
+void set_up(Served& served, const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides());
     SimulationOptions settings = options.simulation();
     settings.on_trouble = OnTrouble::kReport;  // times are what is asked for
-    Warnings ignored;
-    simulation.emplace(scene, settings, ignored);
+    served.simulation.emplace(scene, settings, served.warnings);
 }
 
 }  // namespace
@@ -99,14 +115,14 @@ FrameWorker::~FrameWorker() {
 
 /// A failure is the answer to all that is asked from then on.
 void FrameWorker::serve(const RunOptions& options) {
-    std::optional<Simulation> simulation;
+    Served served;
     std::string answer = answer_of([&] {
-        set_up(simulation, options);
+        set_up(served, options);
         return "";
     });
     char command = 0;
     while (read_char(commands_.reader(), command) && command != kEnd) {
-        if (!is_failure(answer)) answer = answer_of([&] { return reply(command, *simulation); });
+        if (!is_failure(answer)) answer = answer_of([&] { return reply(command, served); });
         write_line(answers_.writer(), answer);
     }
 }
@@ -121,10 +137,8 @@ std::string FrameWorker::ask(char command) {
 
 void FrameWorker::wait_until_ready() { ask(kReady); }
 EndState FrameWorker::end_state() {
-    std::istringstream in(ask(kState));
-    EndState state;
-    in >> state.hash >> state.energy;
-    return state;
+    const auto state = nlohmann::json::parse(ask(kState));
+    return {state["hash"], state["energy"], state["warnings"]};
 }
 
 FrameSample FrameWorker::advance() {

@@ -6,6 +6,7 @@
 
 #include "apps/weft/run/run_options.h"
 #include "runtime/io/process.h"
+#include "simulation/mesh/triangle_mesh.h"
 
 namespace weft {
 
@@ -22,6 +23,7 @@ struct FrameSample {
 struct EndState {
     std::string hash;
     double energy = 0.0;  ///< [J]
+    Warnings warnings;    ///< what `weft run` would have warned of, or stopped at
 };
 
 /// A simulation in a process of its own, which does one frame whenever it is told to. In between it

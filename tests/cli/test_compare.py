@@ -1,0 +1,38 @@
+"""`weft compare`: what it says beside times."""
+
+import pytest
+from weft_program import SHEET, weft, weft_json
+
+# Far too stiff for one substep of that length: a run stops in frame 2.
+EXPLODES = ["--set", "scene.dt=0.08", "--substeps", "1", "--solver", "jpgd", "--iterations", "20",
+            "--set", "cloth[0].stretch.stiffness=1e5", "--frames", "4"]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "falls.toml").write_text(SHEET)
+    (tmp_path / "hangs.toml").write_text(SHEET + 'pins = { corners = ["x-z-", "x+z-"] }\n')
+    return tmp_path
+
+
+def test_what_stops_a_run_is_told(folder):
+    stopped = weft("run", "hangs.toml", "--device", "cpu/1", *EXPLODES, cwd=folder)
+    assert stopped.returncode == 1 and "energy from nowhere" in stopped.stderr
+    compared = weft("compare", "hangs.toml", "--devices", "cpu/1,cpu/2", "--quiet", *EXPLODES,
+                    cwd=folder)
+    assert compared.returncode == 0
+    told = [line for line in compared.stderr.splitlines() if "energy from nowhere" in line]
+    assert told[0].startswith("weft: warning: frame ")
+    assert len(told) == len(set(told)), "once, however many lists there are"
+
+
+def test_warnings_are_in_the_file(folder):
+    compared = weft_json("compare", "hangs.toml", "--devices", "cpu/1", *EXPLODES, cwd=folder)
+    assert any("energy from nowhere" in warning for warning in compared["warnings"])
+
+
+def test_what_runs_well_is_not_warned_of(folder):
+    compared = weft_json("compare", "falls.toml", "--devices", "cpu/1,cpu/2", "--frames", "3",
+                         cwd=folder)
+    assert compared["warnings"] == []
+    assert len({row["state_hash"] for row in compared["rows"]}) == 1
