@@ -19,7 +19,7 @@ WEFT_INLINE real3 missing_turn(moments m) {
     for (int round = 0; round < 3; ++round) {
         turn = bounded_turn(add(turn, solve_sym(inertia, lag_of_turn(m, turn))));
     }
-    return turn;
+    return scale(turn, m.pushed > splat(0.0f) ? splat(0.0f) : splat(1.0f));
 }
 
 /// How far the body of each run has to go.

@@ -7,7 +7,7 @@
 // r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
-#define WEFT_MOMENT_PARTS 6
+#define WEFT_MOMENT_PARTS 7
 
 #include "kernels/bodies/motions.h"
 #include "kernels/bodies/runs.h"
@@ -20,11 +20,13 @@ typedef struct {
     real3 offset;  ///< of r [m]; the lag, x~ - x, of these here:
     real3 lag;     ///< [m]
     mat3 lags;     ///< r (x~ - x)^T [m^2]
+    real pushed;   ///< mean of how far obstacles have pushed vertices in this substep [m]
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
     const real3 zero = no_motion().shift;
-    moments m = {zero, diagonal_sym(splat(0.0f)), zero, zero, make_mat(zero, zero, zero)};
+    moments m = {zero, diagonal_sym(splat(0.0f)),  zero,
+                 zero, make_mat(zero, zero, zero), splat(0.0f)};
     return m;
 }
 
@@ -35,10 +37,11 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.lag = add_scaled(a.lag, b.lag, share);
     a.lags = make_mat(add_scaled(a.lags.x, b.lags.x, share), add_scaled(a.lags.y, b.lags.y, share),
                       add_scaled(a.lags.z, b.lags.z, share));
+    a.pushed = a.pushed + b.pushed * share;
     return a;
 }
 
-/// table  [6 * rows] column-major: a column per part
+/// table  [7 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -47,6 +50,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 3), with_w(m.lags.x, m.lag.x));
     store4(table, column(i, rows, 4), with_w(m.lags.y, m.lag.y));
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
+    store4(table, column(i, rows, 6), with_w(no_motion().shift, m.pushed));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -63,6 +67,7 @@ WEFT_INLINE moments gather_parts(WEFT_GLOBAL const float4* table, int stride, in
     m.offset = xyz(c);
     m.lag = make3(x.w, y.w, z.w);
     m.lags = make_mat(xyz(x), xyz(y), xyz(z));
+    m.pushed = gather4(table + 6 * stride, k).w;
     return m;
 }
 
@@ -72,10 +77,11 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, in
 
 /// The part of one column.
 /// positions  [vertices] xyz: x [m]
-/// targets    [vertices] xyz: x~ [m]
+/// targets    [vertices] xyz: x~ [m], w: how far obstacles have pushed it in this substep [m]; with
+///            xpbd, whose bodies turn by themselves, above 0, too
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// partials  [6 * columns] written, column-major
+/// partials  [7 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
@@ -88,15 +94,16 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         const integer v = load_index(members, entry);
         const real3 x = xyz(gather4(positions, v));
         const real3 r = subtract(x, origin);
-        const real3 lag = subtract(xyz(gather4(targets, v)), x);
-        const moments one = {x, outer_sym(r, splat(1.0f)), r, lag, outer_mat(r, lag)};
+        const real4 target = gather4(targets, v);
+        const real3 lag = subtract(xyz(target), x);
+        const moments one = {x, outer_sym(r, splat(1.0f)), r, lag, outer_mat(r, lag), target.w};
         sum = add_share_of_moments(sum, one, load(shares, entry));
     }
     store_moments(partials, column_count, i, sum);
 }
 
 /// The moments of a body, from its centre of mass.
-/// sums   [6 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// sums   [7 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
 WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
@@ -117,7 +124,7 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
 /// Adds up the runs of each body.
 /// sums               as in sum_of_runs
 /// first_run, counts  [bodies]
-/// moments_of         [6 * (bodies + 1)] written, column-major; of the last one nothing
+/// moments_of         [7 * (bodies + 1)] written, column-major; of the last one nothing
 WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {

@@ -11,7 +11,8 @@
 // up to second order in w, whatever the other bodies do meanwhile. m = (t, w), J has 1 for shifts
 // and the inertia of turns, and J lag is what is missing of the momentum: the mean of x~ - x, and
 // of r x (x~ - x), see bodies/moments.h. The minimum of that is the step that the body takes: all
-// of the lag along surfaces without friction, and hardly anything of it into them.
+// of the lag along surfaces without friction, and hardly anything of it into them. A body that
+// touches no other takes the step of one in a scene without contact, to the bit.
 //
 // Where bodies of one group touch each other, what they lack in common is left, as each is held up
 // by the others. So the group takes one more step as a whole (groups.h), unseen by contacts within
@@ -87,7 +88,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// standing       [columns] as collect_pushes leaves it, as are rows to other_points
 /// column_bodies  [columns] of which body each is
 /// masses         [bodies] [kg]
-/// moments_of     [6 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
+/// moments_of     [7 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
@@ -210,7 +211,7 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 /// first_run  [bodies]
 /// counts     [bodies] of its runs
 /// masses     [bodies] [kg]
-/// moments_of [6 * (bodies + 1)] as weigh_bodies leaves them
+/// moments_of [7 * (bodies + 1)] as weigh_bodies leaves them
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
 /// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
@@ -260,7 +261,7 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
 /// Moves the vertices of free bodies; see move_runs.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
-/// moments_of  [6 * (bodies + 1)] likewise
+/// moments_of  [7 * (bodies + 1)] likewise
 /// bodies      [vertices] which each belongs to; the last one: to none
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,

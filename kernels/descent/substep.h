@@ -54,12 +54,12 @@ WEFT_KERNEL(copy_positions, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL flo
 /// into the obstacle again in every iteration, and be rubbed every time; so x~ is pushed along.
 /// positions  [vertices] xyz behind the obstacles' pushes [m]
 /// pushed     [vertices] xyz before them
-/// targets    [vertices] xyz: x~
+/// targets    [vertices] xyz: x~; w: how far it has been pushed in this substep
 WEFT_KERNEL(push_targets, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* pushed,
             WEFT_GLOBAL float4* targets) {
     const real3 push = subtract(xyz(load4(positions, i)), xyz(load4(pushed, i)));
     const real4 target = load4(targets, i);
-    store4(targets, i, with_w(add(xyz(target), push), target.w));
+    store4(targets, i, with_w(add(xyz(target), push), target.w + length3(push)));
 }
 
 /// Keeps what begin_descent wants to know in the next substep.

@@ -21,7 +21,7 @@ public:
     /// and of others: the vertex that a body is seen from may lie there.
     void add_origin_reads(Step::Adding& task, const Region& region, Buffer<float4>& positions);
 
-    /// [columns], [6 * (runs + most_runs)] see the kernels
+    /// [columns], [7 * (runs + most_runs)] see the kernels
     Buffer<int>& origins() { return origins_; }
     Buffer<float4>& sums() { return sums_; }
     void add_reads(Step::Adding& task);
@@ -29,7 +29,7 @@ public:
 private:
     FreeBodies& bodies_;
     Buffer<int> origins_;
-    Buffer<float4> partials_;  ///< [6 * columns]
+    Buffer<float4> partials_;  ///< [7 * columns]
     Buffer<float4> sums_;
 };
 

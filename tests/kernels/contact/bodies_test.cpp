@@ -126,6 +126,21 @@ TEST(BodiesAsWholes, ABodyThatTouchesNothingTakesTheStepOfOneAlone) {
     }
 }
 
+/// Friction by obstacles holds single vertices, as far as these are pressed; nobody would hold what
+/// turns behind that.
+TEST(BodiesAsWholes, WhatAnObstacleTouchesIsNotTurnedBehindIt) {
+    for (const float pushed : {0.0f, 1e-6f}) {
+        OneBody body;
+        body.part(5) = {0.5f, 0.25f, -0.125f, 0.0f};
+        body.moments[0].w = body.moments[2].z = body.moments[4].w = 0.01f;
+        body.moments[6].y = 1e-4f;
+        body.moments[12].w = pushed;
+        body.solve(0);
+        EXPECT_EQ(body.motions[0].y, 0.25f);
+        EXPECT_EQ(body.motions[2].z == 0.0f, pushed > 0.0f);
+    }
+}
+
 /// Two edges that cross, of a body each.
 struct CrossedEdges {
     static constexpr int kVertices = 4, kRoom = 4;

@@ -93,6 +93,42 @@ box = [[-0.2, 0.0, -0.2], [0.2, 1.0, 0.2]]
 stiffness = 2.0e3
 )";
 
+/// A block that two plates grip and lift.
+const std::string kGripped = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 10
+[[solid]]
+grid = { size = [0.1, 0.1, 0.1], resolution = [4, 4, 4] }
+translate = [0.0, 0.052, 0.0]
+density = 500.0
+young = 1.0e5
+poisson = 0.3
+[[obstacle]]
+name = "left"
+shape = "box"
+center = [-0.11, 0.06, 0.0]
+size = [0.1, 0.08, 0.2]
+friction = 0.8
+thickness = 0.002
+motion = { keyframes = [{ time = 0.0 }, { time = 0.3, translate = [0.012, 0.0, 0.0] }, { time = 1.0, translate = [0.012, 0.3, 0.0] }] }
+[[obstacle]]
+name = "right"
+shape = "box"
+center = [0.11, 0.06, 0.0]
+size = [0.1, 0.08, 0.2]
+friction = 0.8
+thickness = 0.002
+motion = { keyframes = [{ time = 0.0 }, { time = 0.3, translate = [-0.012, 0.0, 0.0] }, { time = 1.0, translate = [-0.012, 0.3, 0.0] }] }
+[[obstacle]]
+name = "floor"
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+friction = 0.5
+thickness = 0.002
+)";
+
 Scene scene_of(std::string text, Method method) {
     if (const auto at = text.find("TUBE"); at != std::string::npos) {
         text.replace(at, 4, irregular_tube());
@@ -216,6 +252,24 @@ thickness = 0.002
     for (const float4& x : run.model->positions->span()) lowest = std::min(lowest, x.y);
     EXPECT_GT(lowest, 1.902f - 1e-5f);
     EXPECT_LT(lowest, 1.91f) << "it lies on it";
+}
+
+/// A block between two plates, in steps that are hardly solved: it is not wound up by them.
+TEST_P(FreeBody, IsHeldByWhatGripsIt) {
+    Scene scene = scene_of(kGripped, GetParam());
+    for (const int iterations : {4, 8}) {
+        scene.solver.iterations = iterations;
+        ManualRun run(scene);
+        const int count = run.model->vertex_count();
+        const auto axis = [&] {
+            const auto x = positions(run);
+            const Vec3 along = at(x, count - 1) - at(x, 0);
+            return (1.0 / length(along)) * along;
+        };
+        const Vec3 start = axis();
+        run.run(420);
+        EXPECT_LT(length(axis() - start), 0.12) << iterations << " iterations";
+    }
 }
 
 TEST_P(FreeBody, IsTheSameForEveryCut) {
