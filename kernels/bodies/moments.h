@@ -54,7 +54,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
 }
 
 /// The parts of row k, of which the next one is so many further.
-WEFT_INLINE moments gather_parts(WEFT_GLOBAL const float4* table, int stride, integer k) {
+WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, integer k) {
     const real4 a = gather4(table, k);
     const real4 b = gather4(table + stride, k);
     const real4 c = gather4(table + 2 * stride, k);
@@ -69,10 +69,6 @@ WEFT_INLINE moments gather_parts(WEFT_GLOBAL const float4* table, int stride, in
     m.lags = make_mat(xyz(x), xyz(y), xyz(z));
     m.pushed = gather4(table + 6 * stride, k).w;
     return m;
-}
-
-WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int rows, integer k) {
-    return gather_parts(table, rows, k);
 }
 
 /// The part of one column.
@@ -112,7 +108,8 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
     moments sum = no_moments();
     for (int k = 0; k < most_runs; ++k) {
         const real own = splat((float)k) < count ? splat(1.0f) : splat(0.0f);
-        sum = add_share_of_moments(sum, gather_parts(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
+        sum =
+            add_share_of_moments(sum, gather_moments(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
     }
     const real3 back = scale(sum.offset, splat(-1.0f));
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
