@@ -23,18 +23,22 @@
 // to be carried. The bound above takes it for springs that pull as well as push: where one corner
 // presses too hard, the others seem to hold it down, and as their normals differ a little, what is
 // left of these forces leads aside. Later rounds see which contacts have opened, and undo that. And
-// friction goes by how hard contacts press: in one round, what should slide would stick.
+// friction goes by how hard contacts press: in one round, what should slide would stick. How hard
+// that is, is in bearings.h.
 //
-// All that is in units of M / h^2, in 12 parts: float4
+// All that is in units of M / h^2, in 12 parts, or 14 with friction: float4
 //   0..4   the form of motions that contacts with others have, see store_sym6
 //   5      the lag less h^2/M G [m]; what is missing of the first form
 //   6      the same of turns [m^2]: here h^2/M times the torque alone; and of the second form
 //   7..11  as the first five, of those with what is not of the body's group
+//   12..13 what bears it
 // of which strains (strains.h) have the first seven.
 #define WEFT_STRAIN_PARTS 7
 #define WEFT_BODY_PARTS 12
+#define WEFT_RUBBED_BODY_PARTS 14
 
 #include "kernels/bodies/free_bodies.h"
+#include "kernels/contact/bearings.h"
 #include "kernels/contact/pushes.h"
 
 WEFT_KERNELS_BEGIN
@@ -43,10 +47,11 @@ WEFT_KERNELS_BEGIN
 typedef struct {
     body_motion lag;
     sym6 block, outside;
+    bearing borne;
 } body_sum;
 
 WEFT_INLINE body_sum no_body_sum(void) {
-    body_sum sum = {no_motion(), no_sym6(), no_sym6()};
+    body_sum sum = {no_motion(), no_sym6(), no_sym6(), no_bearing()};
     return sum;
 }
 
@@ -54,6 +59,7 @@ WEFT_INLINE body_sum add_share(body_sum a, body_sum b, real share) {
     a.lag = add_scaled_motion(a.lag, b.lag, share);
     a.block = add_scaled_sym6(a.block, b.block, share);
     a.outside = add_scaled_sym6(a.outside, b.outside, share);
+    a.borne = add_scaled_bearing(a.borne, b.borne, share);
     return a;
 }
 
@@ -70,6 +76,20 @@ WEFT_INLINE body_sum add_push_at(body_sum sum, derivatives push, real3 lever, re
     sum.block = add_scaled_sym6(sum.block, form, splat(1.0f));
     sum.outside = add_scaled_sym6(sum.outside, form, outside);
     return sum;
+}
+
+/// What a contact that rubs says of how its body is borne.
+/// mean     how hard it presses, over the rounds up to this one
+/// pressed  how hard this round has told that it does
+/// part     that the body had in telling it
+/// pull     of friction, as in add_rubbing
+WEFT_INLINE bearing bearing_at(contact_entry c, real mean, real pressed, real part, real pull,
+                               real yielding) {
+    const real own = c.own * yielding;
+    const real known = pressed * (splat(1.0f) - part);
+    bearing b = {add_scaled(scale(c.slip, pull * own), c.normal, -(known * own)),
+                 scale(c.normal, mean * part * own), mean * own};
+    return b;
 }
 
 /// What it does to the body's strain.
@@ -92,34 +112,38 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
-/// partials       [12 * columns] written, column-major, see above; behind the first round where it
-///                may have changed
+/// bearings       [2 * (bodies + 1)] as add_groups leaves them (groups.h)
+/// presses        [entries] how hard contacts press: from the mean over the rounds before, to that
+///                with this one, but for strains [N]
+/// partials       [12 or 14 * columns] written, column-major, see above; behind the first round where
+///                it may have changed
 /// friction, creep  as in add_push
-/// is_pressed     1 where contacts rub by what `points` say, 0 where they do so by their gaps
 /// h2             the square of the substep [s^2]
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
-///                have ended badly: nothing reads them, nor `strains`
+///                have ended badly: nothing reads them, nor `strains` and `bearings`
 /// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
 WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                    WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
                    WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
-                   WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const int* rows,
-                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* codes,
-                   WEFT_GLOBAL const float4* sides, WEFT_GLOBAL const float4* slips,
-                   WEFT_GLOBAL const float4* forces, WEFT_GLOBAL const float4* points,
-                   WEFT_GLOBAL const float4* other_points, WEFT_GLOBAL float4* partials,
-                   float friction, float creep, int is_pressed, float h2, int has_moved,
-                   int is_strain, int column_count, int body_count) {
+                   WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* bearings,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* codes, WEFT_GLOBAL const float4* sides,
+                   WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces,
+                   WEFT_GLOBAL const float4* points, WEFT_GLOBAL const float4* other_points,
+                   WEFT_GLOBAL float* presses, WEFT_GLOBAL float4* partials, float friction,
+                   float creep, float h2, int has_moved, int is_strain, int column_count,
+                   int body_count) {
     const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
-    const float by_gaps = is_pressed ? 0.0f : friction;
-    const float pressed = is_pressed ? friction : 0.0f;
+    const real one = splat(1.0f);
     const integer own_body = load_index(column_bodies, i);
     const real yielding = splat(h2) / gather(masses, own_body);
     const real3 centre = xyz(gather4(moments_of, own_body));
     body_motion own = no_motion();
     body_motion own_strain = no_motion();
+    bearing own_bearing = no_bearing();
     if (has_moved) {
+        if (friction > 0.0f) own_bearing = gather_bearing(bearings, body_count + 1, own_body);
         own = gather_motion(motions, body_count + 1, own_body);
         own_strain = gather_motion(strains, body_count + 1, own_body);
     }
@@ -143,9 +167,10 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
         const whole opposite = code >> splat_whole(1);
-        const real4 point = gather4(points, entry);
-        const real press = on ? splat(pressed) * point.w : zero;
-        real3 lever = subtract(xyz(point), centre);
+        real press = zero;
+        if (friction > 0.0f) press = on ? gather(presses, entry) : zero;
+        telling told = told_by_one();
+        real3 lever = subtract(xyz(gather4(points, entry)), centre);
         if (has_moved) {
             const integer other = address(opposite);
             const real3 other_lever =
@@ -155,19 +180,29 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                     way_of_strain(gather_motion(strains, body_count + 1, other), other_lever));
             const real3 turned = way_of_turn(own.turn, lever);
             const real3 own_way = add(add(own.shift, turned), way_of_strain(own_strain, lever));
-            const real3 way = subtract(own_way, other_way);
-            c.gap = c.gap + dot3(way, c.normal);
-            c.slip = add(c.slip, along_surface(way, c.normal));
-            c.ahead = c.range;
+            c = moved_push(c, subtract(own_way, other_way));
             lever = add(lever, turned);
+            if (friction > 0.0f) {
+                const bearing other_bearing = gather_bearing(bearings, body_count + 1, other);
+                told =
+                    tell(own_bearing, other_bearing, opposite < splat_whole(body_count), c.normal);
+            }
         }
-        if (!any_item(both(on, (is_pushed(c) ? splat(1.0f) : press) > zero))) continue;
-        derivatives push = add_push(zero_derivatives(), c, on, no_way, by_gaps, creep);
-        if (is_pressed) {
+        if (!any_item(both(on, (is_pushed(c) ? one : press) > zero))) continue;
+        derivatives push = add_push(zero_derivatives(), c, on, no_way, 0.0f, creep);
+        if (friction > 0.0f) {
+            const real pressed = press * told.correction;
             const real grip = friction_grip(length3(c.slip), splat(creep));
-            push = add_rubbing(push, c, press * grip, no_way);
+            const real pull = splat(friction) * pressed * grip;
+            push = add_rubbing(push, c, pull, no_way);
+            if (!is_strain) {
+                const real mean = splat(0.5f) * (press + press_of_gap(c));
+                const bearing said = bearing_at(c, mean, pressed, told.part, pull, yielding);
+                scatter_where(on, presses, entry, mean);
+                sum.borne = add_scaled_bearing(sum.borne, said, on ? one : zero);
+            }
         }
-        const real outside = code > opposite + opposite ? splat(1.0f) : splat(0.0f);
+        const real outside = code > opposite + opposite ? one : zero;
         if (is_strain)
             sum = add_strain_at(sum, push, lever, yielding);
         else
@@ -176,7 +211,9 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
     store_sym6(partials, column_count, i, sum.block);
     store4(partials, column(i, column_count, 5), with_w(sum.lag.shift, sum.block.mixed.z.z));
     store4(partials, column(i, column_count, 6), with_w(sum.lag.turn, sum.outside.mixed.z.z));
-    if (!is_strain) store_sym6(partials + 7 * column_count, column_count, i, sum.outside);
+    if (is_strain) return;
+    store_sym6(partials + 7 * column_count, column_count, i, sum.outside);
+    if (friction > 0.0f) store_bearing(partials + 12 * column_count, column_count, i, sum.borne);
 }
 
 /// What a run has of strains; of motions that is all but what is outside.
@@ -188,10 +225,12 @@ WEFT_INLINE body_sum gather_strain_sum(WEFT_GLOBAL const float4* lags, int lag_c
     return sum;
 }
 
-WEFT_INLINE body_sum gather_body_sum(WEFT_GLOBAL const float4* lags, int lag_count, integer run) {
+WEFT_INLINE body_sum gather_body_sum(WEFT_GLOBAL const float4* lags, int lag_count, integer run,
+                                     int is_rubbed) {
     body_sum sum = gather_strain_sum(lags, lag_count, run);
     const real zz = gather4(lags + 6 * lag_count, run).w;
     sum.outside = gather_sym6(lags + 7 * lag_count, lag_count, run, zz);
+    if (is_rubbed) sum.borne = gather_bearing(lags + 12 * lag_count, lag_count, run);
     return sum;
 }
 
@@ -207,7 +246,7 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 }
 
 /// How far each body has to go, as if it were the only one.
-/// lags       [12 * lag_count] of the runs and more rows, column-major, see above
+/// lags       [12 or 14 * lag_count] of the runs and more rows, column-major, see above
 /// first_run  [bodies]
 /// counts     [bodies] of its runs
 /// masses     [bodies] [kg]
@@ -215,20 +254,22 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
 /// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
+/// bearings   [2 * (bodies + 1)] written with friction, but for how far bodies have gone (groups.h)
 /// has_moved  as in add_pushed_lags
+/// is_rubbed  1 with friction
 /// most_runs  that a body has; lag_count is that more than there are runs
 WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL float4* motions,
-            WEFT_GLOBAL float4* strains, WEFT_GLOBAL float4* rests, int has_moved, int most_runs,
-            int lag_count, int body_count) {
+            WEFT_GLOBAL float4* strains, WEFT_GLOBAL float4* rests, WEFT_GLOBAL float4* bearings,
+            int has_moved, int is_rubbed, int most_runs, int lag_count, int body_count) {
     const real zero = splat(0.0f);
     body_sum sum = no_body_sum();
     const integer first = load_index(first_run, i);
     const real count = load(counts, i);
     for (int k = 0; k < most_runs; ++k) {
         const real own = splat((float)k) < count ? splat(1.0f) : zero;
-        sum = add_share(sum, gather_body_sum(lags + k, lag_count, first), own);
+        sum = add_share(sum, gather_body_sum(lags + k, lag_count, first, is_rubbed), own);
     }
     const integer own_number = address(item_numbers(i));
     const moments body = gather_moments(moments_of, body_count + 1, own_number);
@@ -255,6 +296,11 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     gone = add_scaled_motion(gone, step, splat(1.0f));
     gone.turn = bounded_turn(gone.turn);
     store_motion(motions, body_count + 1, i, gone);
+    if (is_rubbed) {
+        sum.borne.borne = subtract(sum.borne.borne, body.lag);
+        const bearing borne = add_scaled_bearing(no_bearing(), sum.borne, load(masses, i));
+        store_bearing(bearings, body_count + 1, i, borne);
+    }
     store_rest(rests, body_count, i, form, left, mass);
 }
 

@@ -69,13 +69,17 @@ WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
     store4(group_motions, column(i, body_count, 2), with_w(centre, zero));
 }
 
-/// Adds what its group does to the motion of each body that touches another one.
+/// Adds what its group does to the motion of each body that touches another one, which then is as
+/// far as the round leads it.
 /// motions  [2 * (bodies + 1)]
+/// bearings [2 * (bodies + 1)] from solve_bodies, to those with how far bodies have gone
+/// masses   [bodies] [kg]
 /// leaders  [substeps * bodies] the first one of each body's group
 /// others as in solve_groups
-WEFT_KERNEL(add_groups, WEFT_GLOBAL float4* motions, WEFT_GLOBAL const float4* rests,
+WEFT_KERNEL(add_groups, WEFT_GLOBAL float4* motions, WEFT_GLOBAL float4* bearings,
+            WEFT_GLOBAL const float* masses, WEFT_GLOBAL const float4* rests,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* group_motions,
-            WEFT_GLOBAL const int* leaders, int body_count, int substep) {
+            WEFT_GLOBAL const int* leaders, int is_rubbed, int body_count, int substep) {
     const real zero = splat(0.0f);
     const integer leader = load_index(leaders, column(i, body_count, substep));
     const integer own_number = address(item_numbers(i));
@@ -87,6 +91,11 @@ WEFT_KERNEL(add_groups, WEFT_GLOBAL float4* motions, WEFT_GLOBAL const float4* r
     own.shift = add_scaled(own.shift, way_of_motion(group, lever), touches);
     own.turn = bounded_turn(add_scaled(own.turn, group.turn, touches));
     store_motion(motions, body_count + 1, i, own);
+    if (is_rubbed) {
+        bearing b = gather_bearing(bearings, body_count + 1, own_number);
+        b.borne = add_scaled(b.borne, own.shift, load(masses, i));
+        store_bearing(bearings, body_count + 1, i, b);
+    }
 }
 
 WEFT_KERNELS_END

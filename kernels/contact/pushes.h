@@ -56,8 +56,9 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// multipliers  [entries] of xpbd, see project_contacts [N s^2]; not read where has_multipliers is 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
-/// points, other_points  [entries] written: where this side is touched, and the other one [m]; w of
-///              points: how hard multipliers say that they press each other [N]
+/// points, other_points  [entries] written: where this side is touched, and the other one [m]
+/// presses      [entries] written with friction: how hard they press each other, as multipliers or
+///              gaps say [N]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
 WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const int* members,
@@ -72,9 +73,9 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs,
                    WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
                    WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
-                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float4* standing, int column_count,
-                   int body_count, float friction, int has_multipliers, float inverse_h2,
-                   int instance) {
+                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float* presses,
+                   WEFT_GLOBAL float4* standing, int column_count, int body_count, float friction,
+                   int has_multipliers, float inverse_h2, int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
@@ -128,16 +129,20 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                 const real3 point = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
                 const real3 other_point = point_of_side(positions, w, own, -1.0f, c0, c1, c2, c3);
                 const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
-                const real press =
-                    has_multipliers ? gather(multipliers, entry) * splat(inverse_h2) : zero;
                 const mask fits = both(counts_here, found < room);
                 const integer place = address(push_start + found * WEFT_ROW_STRIDE);
                 scatter_whole_where(fits, codes, place, opposite + opposite + outside);
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
                 scatter4_where(fits, forces, place, force);
-                scatter4_where(fits, points, place, with_w(point, press));
+                scatter4_where(fits, points, place, with_w(point, zero));
                 scatter4_where(fits, other_points, place, with_w(other_point, zero));
+                if (friction > 0.0f) {
+                    const real press = has_multipliers
+                                           ? gather(multipliers, entry) * splat(inverse_h2)
+                                           : press_of_gap(c);
+                    scatter_where(fits, presses, place, press);
+                }
                 found = counts_here ? found + splat_whole(1) : found;
             }
         }
@@ -164,6 +169,14 @@ WEFT_INLINE contact_entry load_push(WEFT_GLOBAL const float4* sides,
     c.spread = force.y;
     c.stiffness = force.z;
     c.range = force.w;
+    return c;
+}
+
+/// Where its side has gone on by a way past the other one.
+WEFT_INLINE contact_entry moved_push(contact_entry c, real3 way) {
+    c.gap = c.gap + dot3(way, c.normal);
+    c.slip = add(c.slip, along_surface(way, c.normal));
+    c.ahead = c.range;
     return c;
 }
 

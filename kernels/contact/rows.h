@@ -93,6 +93,12 @@ WEFT_INLINE derivatives add_rubbing(derivatives s, contact_entry c, real pull, r
 /// or nothing is the same.)
 WEFT_INLINE mask is_pushed(contact_entry c) { return smaller(c.gap, c.ahead) < c.range; }
 
+/// How hard a contact presses, as its gap says [N].
+WEFT_INLINE real press_of_gap(contact_entry c) {
+    const real slope = contact_slope(c.gap, c.range, c.stiffness);
+    return c.gap < c.range ? -slope : splat(0.0f);
+}
+
 /// Adds a contact's part of a vertex' gradient and Hessian block, where it is on.
 /// way       of the vertex since the snapshot [m]
 /// friction  Coulomb coefficient; 0: none

@@ -26,6 +26,7 @@ BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, 
       forces_(table_.add_column<float4>("forces")),
       points_(table_.add_column<float4>("points")),
       other_points_(table_.add_column<float4>("other_points")),
+      presses_(table_.add_column<float>("presses")),
       standing_("touching.standing", static_cast<std::size_t>(columns.count)) {}
 
 Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
@@ -36,8 +37,8 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
                   contacts_.slips, multipliers_ ? *multipliers_ : none_, table_.rows(),
                   table_.counts(), table_.needs(), codes_, sides_, slips_, forces_, points_,
-                  other_points_, standing_, columns_.count, groups.body_count(), friction_,
-                  multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
+                  other_points_, presses_, standing_, columns_.count, groups.body_count(),
+                  friction_, multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
 }
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
@@ -49,6 +50,7 @@ void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, 
     task.updates(table_.counts(), column, end)
         .updates(table_.needs(), column, end)
         .updates(standing_, column, end)
+        .updates(presses_, table_.entries())
         .updates(codes_, table_.entries());
     for (Buffer<float4>* entries : {&sides_, &slips_, &forces_, &points_, &other_points_}) {
         task.updates(*entries, table_.entries());
@@ -56,13 +58,13 @@ void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, 
 }
 
 Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
-                       Buffer<float4>& motions, Buffer<float4>& strains, int has_moved,
-                       int is_strain, Buffer<float4>& partials) {
+                       Buffer<float4>& motions, Buffer<float4>& strains, Buffer<float4>& bearings,
+                       int has_moved, int is_strain, Buffer<float4>& partials) {
     const int body_count = static_cast<int>(masses.count());
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
-                  moments, motions, strains, table_.rows(), table_.counts(), codes_, sides_, slips_,
-                  forces_, points_, other_points_, partials, friction_, creep_,
-                  multipliers_ ? 1 : 0, h2_, has_moved, is_strain, columns_.count, body_count);
+                  moments, motions, strains, bearings, table_.rows(), table_.counts(), codes_,
+                  sides_, slips_, forces_, points_, other_points_, presses_, partials, friction_,
+                  creep_, h2_, has_moved, is_strain, columns_.count, body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {
@@ -70,6 +72,7 @@ void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {
     const int end = columns_.by_strip.item(region.end);
     task.reads(table_.counts(), column, end)
         .reads(standing_, column, end)
+        .updates(presses_, table_.entries())
         .reads(codes_, table_.entries());
     for (Buffer<float4>* entries : {&sides_, &slips_, &forces_, &points_, &other_points_}) {
         task.reads(*entries, table_.entries());

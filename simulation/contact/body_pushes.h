@@ -14,8 +14,8 @@ namespace weft {
 /// column (kernels/contact/pushes.h).
 class BodyPushes {
 public:
-    /// contacts, columns: must outlive this. multipliers: [entries of contacts] by which they rub;
-    /// null: they do so as their gaps say. h: the substep [s]
+    /// contacts, columns: must outlive this. multipliers: [entries of contacts] by which they press
+    /// where rounds begin; null: they do so as their gaps say. h: the substep [s]
     BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
                Buffer<float>* multipliers, double h);
 
@@ -28,9 +28,9 @@ public:
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
     /// All parameters as the kernel's.
     Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
-               Buffer<float4>& motions, Buffer<float4>& strains, int has_moved, int is_strain,
-               Buffer<float4>& partials);
-    /// What that needs of a region, besides the moments, the motions and the strains.
+               Buffer<float4>& motions, Buffer<float4>& strains, Buffer<float4>& bearings,
+               int has_moved, int is_strain, Buffer<float4>& partials);
+    /// What that needs of a region, besides the moments, the motions, the strains and the bearings.
     void add_sum_accesses(Step::Adding& task, const Region& region);
 
     RowTable& table() { return table_; }
@@ -44,6 +44,7 @@ private:
     RowTable table_;
     Buffer<int>& codes_;
     Buffer<float4>&sides_, &slips_, &forces_, &points_, &other_points_;
+    Buffer<float>& presses_;
     Buffer<float4> standing_;  ///< [columns]
 };
 

@@ -10,7 +10,6 @@ namespace weft {
 
 namespace {
 
-constexpr int kParts = WEFT_BODY_PARTS;
 constexpr int kRounds = 12;
 constexpr int kStrainEvery = 3;  ///< rounds, from the first one on
 
@@ -43,11 +42,13 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
                                Buffer<float>* multipliers, int first_kind)
     : model_(model),
       bodies_(bodies),
+      is_rubbed_(contact.rubbing().friction > 0 ? 1 : 0),
+      parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
       pushes_(contact.rows(), bodies.columns(), contact.rubbing(), multipliers, model.h),
       groups_(contact.motion().group(parts_of(model, bodies))),
       lag_count_(bodies.run_count() + bodies.most_runs()),
-      partials_("touching.partials", at(kParts * bodies.column_count())),
-      lags_("touching.lags", at(kParts * lag_count_)),
+      partials_("touching.partials", at(parts_ * bodies.column_count())),
+      lags_("touching.lags", at(parts_ * lag_count_)),
       body_of_("touching.body_of", at(model.vertex_count())),
       column_bodies_("touching.column_bodies", at(bodies.column_count())),
       first_run_("touching.first_run", at(bodies.body_count())),
@@ -57,6 +58,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       group_motions_("touching.group_motions", 3 * first_run_.count()),
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
+      bearings_("touching.bearings", motions_.count()),
       moments_(bodies, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
@@ -89,12 +91,12 @@ void TouchingBodies::number_bodies(const Model& model) {
 std::vector<Launch> TouchingBodies::solve(int has_moved) {
     return {
         launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
-               moments_.moments(), motions_, strains_, rests_, has_moved, bodies_.most_runs(),
-               lag_count_, body_count()),
+               moments_.moments(), motions_, strains_, rests_, bearings_, has_moved, is_rubbed_,
+               bodies_.most_runs(), lag_count_, body_count()),
         launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
                groups_.counts, groups_.members, group_motions_, body_count(), kInstance),
-        launch(kernels::add_groups, all(), motions_, rests_, moments_.moments(), group_motions_,
-               groups_.leaders, body_count(), kInstance)};
+        launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_, moments_.moments(),
+               group_motions_, groups_.leaders, is_rubbed_, body_count(), kInstance)};
 }
 
 Launch TouchingBodies::solve_strains() {
@@ -124,10 +126,10 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
 }
 
 std::vector<Launch> TouchingBodies::sum_round(int has_moved, int is_strain) {
-    return {pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, has_moved,
-                        is_strain, partials_),
+    return {pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, bearings_,
+                        has_moved, is_strain, partials_),
             bodies_.add_columns(partials_, lags_,
-                                {is_strain ? WEFT_STRAIN_PARTS : kParts, lag_count_, 1})};
+                                {is_strain ? WEFT_STRAIN_PARTS : parts_, lag_count_, 1})};
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
@@ -167,22 +169,23 @@ void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& reg
                              int iteration) {
     auto task = step.add(body, iteration, region.strips(), region.id);
     add_motion_accesses(task);
+    task.reads(bearings_, 0, static_cast<int>(bearings_.count()));
     pushes_.add_sum_accesses(task, region);
     const auto [first_run, end_run] = bodies_.runs_in(region.begin, region.end);
-    for (int part = 0; part < kParts; ++part) {
+    for (int part = 0; part < parts_; ++part) {
         task.updates(lags_, part * lag_count_ + first_run, part * lag_count_ + end_run);
     }
 }
 
 void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) {
     auto task = step.add(body, iteration, {0, 1});
-    for (int part = 0; part < kParts; ++part) {
+    for (int part = 0; part < parts_; ++part) {
         const int first = part * lag_count_;
         task.reads(lags_, first, first + bodies_.run_count());
     }
     moments_.add_reads(task);
     if (solids_) solids_->add_reads(task);
-    for (Buffer<float4>* written : {&motions_, &strains_, &rests_, &group_motions_}) {
+    for (Buffer<float4>* written : {&motions_, &strains_, &rests_, &group_motions_, &bearings_}) {
         task.updates(*written, 0, static_cast<int>(written->count()));
     }
 }

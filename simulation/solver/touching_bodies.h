@@ -48,6 +48,8 @@ private:
 
     const Model& model_;
     FreeBodies& bodies_;
+    int is_rubbed_;  ///< 1 with friction
+    int parts_;      ///< that are summed up
     BodyPushes pushes_;
     BodyGroups& groups_;
     int lag_count_;
@@ -63,6 +65,7 @@ private:
     Buffer<float4> group_motions_;  ///< [3 * bodies]
     Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
     Buffer<float4> strains_;        ///< [2 * (bodies + 1)]
+    Buffer<float4> bearings_;       ///< [2 * (bodies + 1)]
     BodyMoments moments_;
     Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0
     std::unique_ptr<BodyStrains> solids_;  ///< null: only cloth is free

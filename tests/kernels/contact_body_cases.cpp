@@ -31,7 +31,9 @@ struct Columns {
 struct Pushes {
     Rows rows;
     Buffer<int>& codes;
-    Buffer<float4>&sides, &slips, &forces, &points, &other_points, &standing;
+    Buffer<float4>&sides, &slips, &forces, &points, &other_points;
+    Buffer<float>& presses;
+    Buffer<float4>& standing;
 
     explicit Pushes(KernelCase& c)
         : rows(c, "pushes", c.items, kRoom),
@@ -41,8 +43,9 @@ struct Pushes {
           forces(c.add<float4>("forces", rows.entries)),
           points(add_points(c, "points", rows.entries)),
           other_points(add_points(c, "other_points", rows.entries)),
+          presses(c.add<float>("presses", rows.entries)),
           standing(add_points(c, "standing", c.items)) {
-        for (float4& point : points.span()) point.w = c.random.real(0.0f, 10.0f);
+        for (float& press : presses.span()) press = c.random.real(0.0f, 10.0f);
         for (float4& f : forces.span()) f = {1.0f, 2.0f, c.random.real(1.0f, 1e4f), kRange};
     }
 };
@@ -64,7 +67,7 @@ void collect_case(KernelCase& c) {
         contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3, contacts.normals,
         contacts.weights, contacts.measures, contacts.slips, multipliers, pushes.rows.rows,
         pushes.rows.counts, needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces,
-        pushes.points, pushes.other_points, pushes.standing, c.items, kBodies,
+        pushes.points, pushes.other_points, pushes.presses, pushes.standing, c.items, kBodies,
         c.flavour == Flavour::kRandom ? 0.3f : 0.0f, c.random.integer(0, 1), 1e4f, kInstance);
 }
 
@@ -122,13 +125,14 @@ void lags_case(KernelCase& c) {
     auto& moments = add_moments(c, kBodies);
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
+    auto& bearings = add_points(c, "bearings", 2 * (kBodies + 1));
     Pushes pushes(c);
-    auto& partials = c.add<float4>("partials", WEFT_BODY_PARTS * c.items);
+    auto& partials = c.add<float4>("partials", WEFT_RUBBED_BODY_PARTS * c.items);
     c.launch =
         launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses, moments,
-               motions, strains, pushes.rows.rows, pushes.rows.counts, pushes.codes, pushes.sides,
-               pushes.slips, pushes.forces, pushes.points, pushes.other_points, partials,
-               c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, c.random.integer(0, 1), 1e-4f,
+               motions, strains, bearings, pushes.rows.rows, pushes.rows.counts, pushes.codes,
+               pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
+               pushes.presses, partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
                c.random.integer(0, 1), c.random.integer(0, 1), c.items, kBodies);
 }
 
@@ -149,9 +153,10 @@ void fill_forms(KernelCase& c, Buffer<float4>& forms, int rows, int first) {
 
 void bodies_case(KernelCase& c) {
     const int lag_count = c.items + Runs::kMost;
-    auto& lags = c.add<float4>("lags", WEFT_BODY_PARTS * lag_count);
+    auto& lags = c.add<float4>("lags", WEFT_RUBBED_BODY_PARTS * lag_count);
     fill_forms(c, lags, lag_count, 0);
     fill_forms(c, lags, lag_count, 7);
+    for (int k = 12 * lag_count; k < 14 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
     for (int k = 5 * lag_count; k < 7 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
     Runs runs(c);
     auto& masses = c.add<float>("masses", c.items);
@@ -160,9 +165,10 @@ void bodies_case(KernelCase& c) {
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
     auto& strains = add_points(c, "strains", 2 * (c.items + 1));
     auto& rests = c.add<float4>("rests", 7 * c.items);
-    c.launch =
-        launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses, moments,
-               motions, strains, rests, c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
+    auto& bearings = add_points(c, "bearings", 2 * (c.items + 1));
+    c.launch = launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses,
+                      moments, motions, strains, rests, bearings, c.random.integer(0, 1),
+                      c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
 }
 
 void strains_case(KernelCase& c) {
@@ -225,12 +231,15 @@ void groups_case(KernelCase& c) {
 
 void add_groups_case(KernelCase& c) {
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
+    auto& bearings = add_points(c, "bearings", 2 * (c.items + 1));
+    auto& masses = c.add<float>("masses", c.items);
+    for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
     auto& rests = add_points(c, "rests", 7 * c.items);
     auto& moments = add_moments(c, c.items);
     auto& group_motions = add_points(c, "group_motions", 3 * c.items);
     auto& leaders = add_indices(c, "leaders", kSubsteps * c.items, c.items);
-    c.launch = launch(kernels::add_groups, c.segments, motions, rests, moments, group_motions,
-                      leaders, c.items, kInstance);
+    c.launch = launch(kernels::add_groups, c.segments, motions, bearings, masses, rests, moments,
+                      group_motions, leaders, c.random.integer(0, 1), c.items, kInstance);
 }
 
 void move_case(KernelCase& c) {

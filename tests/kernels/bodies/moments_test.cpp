@@ -126,7 +126,7 @@ TEST(BodyMoments, TellWhatIsLeftOfABodyThatIsTurned) {
 body_motion push_end(Cloud& cloud, real3 normal) {
     const moments body = cloud.weigh();
     Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 7), motions("motions", 4),
-        strains("strains", 4);
+        strains("strains", 4), bearings("bearings", 4);
     Buffer<float> masses("masses", 1);
     masses[0] = 1.0f;
     const real3 lever = subtract(xyz(gather4(cloud.positions.data(), 0)), body.centre);
@@ -137,7 +137,7 @@ body_motion push_end(Cloud& cloud, real3 normal) {
     store4(lags.data(), column(first, 2, 5), with_w(force, form.mixed.z.z));
     store4(lags.data(), column(first, 2, 6), with_w(cross3(lever, force), 0.0f));
     Cloud::run(launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts,
-                      masses, cloud.table, motions, strains, rests, 0, 1, 2, 1),
+                      masses, cloud.table, motions, strains, rests, bearings, 0, 0, 1, 2, 1),
                1);
     for (const float4& rest : rests.span()) EXPECT_TRUE(std::isfinite(rest.x + rest.y + rest.z));
     return gather_motion(motions.data(), 2, 0);

@@ -17,7 +17,7 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /// One body of one run, on which solve_bodies is run.
 struct OneBody {
     Buffer<float4> lags{"lags", 2 * WEFT_BODY_PARTS}, rests{"rests", 7}, motions{"motions", 4},
-        strains{"strains", 4}, moments{"moments", 2 * WEFT_MOMENT_PARTS};
+        strains{"strains", 4}, bearings{"bearings", 4}, moments{"moments", 2 * WEFT_MOMENT_PARTS};
     Buffer<int> first{"first_run", 1};
     Buffer<float> counts{"counts", 1}, masses{"masses", 1};
 
@@ -28,7 +28,7 @@ struct OneBody {
     void solve(int has_moved) {
         const Launch launched =
             launch(kernels::solve_bodies, Segments{}, lags, first, counts, masses, moments, motions,
-                   strains, rests, has_moved, 1, 2, 1);
+                   strains, rests, bearings, has_moved, 0, 1, 2, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
     }
 };
@@ -47,17 +47,17 @@ TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12),
-        strains("strains", 4);
+        strains("strains", 4), bearings("bearings", 4);
     standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
     Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
-    Buffer<float> masses("masses", 1);
+    Buffer<float> masses("masses", 1), presses("presses", 1);
     masses[0] = 1.0f;
     Buffer<float4> entries("entries", 1), partials("partials", WEFT_BODY_PARTS);
     const auto lag_of_round = [&](int has_moved) {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
-                   strains, rows, counts, codes, entries, entries, entries, entries, entries,
-                   partials, 0.0f, 1.0f, 0, 1e-4f, has_moved, 0, 1, 1);
+                   strains, bearings, rows, counts, codes, entries, entries, entries, entries,
+                   entries, presses, partials, 0.0f, 1.0f, 1e-4f, has_moved, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5].x;
     };
@@ -67,37 +67,60 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     EXPECT_EQ(lag_of_round(1), 0.125f);
 }
 
-/// Xpbd knows how hard contacts press, whatever their gaps are by now.
-TEST(BodiesAsWholes, WhatIsPressedRubsByThatAlone) {
-    constexpr float kPress = 50.0f, kFriction = 0.5f, kRange = 0.02f, kYielding = 1e-4f;
-    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12),
-        strains("strains", 4), sides("sides", 1), slips("slips", 1), forces("forces", 1),
-        points("points", 1), others("other_points", 1), partials("partials", WEFT_BODY_PARTS);
-    Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
-    Buffer<float> masses("masses", 1);
-    counts[0] = 1;
-    codes[0] = 2;
-    masses[0] = 1.0f;
-    slips[0] = {0.01f, 0.0f, 0.0f, kRange};
-    forces[0] = {1.0f, 2.0f, 1e4f, kRange};
-    points[0] = {0.0f, 0.0f, 0.0f, kPress};
-    const auto lag_at = [&](float gap, int is_pressed) {
+/// One contact of one body, on which sums are run.
+struct OneContact {
+    static constexpr float kPress = 50.0f, kFriction = 0.5f, kRange = 0.02f, kYielding = 1e-4f;
+    Buffer<float4> standing{"standing", 1}, motions{"motions", 4}, moments{"moments", 14},
+        strains{"strains", 4}, bearings{"bearings", 4}, sides{"sides", 1}, slips{"slips", 1},
+        forces{"forces", 1}, points{"points", 1}, others{"other_points", 1},
+        partials{"partials", WEFT_RUBBED_BODY_PARTS};
+    Buffer<int> bodies{"column_bodies", 1}, rows{"rows", 2}, counts{"counts", 1}, codes{"codes", 1};
+    Buffer<float> masses{"masses", 1}, presses{"presses", 1};
+
+    OneContact() {
+        counts[0] = 1;
+        codes[0] = 2;
+        masses[0] = 1.0f;
+        slips[0] = {0.01f, 0.0f, 0.0f, kRange};
+        forces[0] = {1.0f, 2.0f, 1e4f, kRange};
+        presses[0] = kPress;
+    }
+    /// What pushes the body along x and y.
+    float4 lag_at(float gap, int has_moved) {
         sides[0] = {0.0f, 1.0f, 0.0f, gap};
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
-                   strains, rows, counts, codes, sides, slips, forces, points, others, partials,
-                   kFriction, 1e-3f, is_pressed, kYielding, 0, 0, 1, 1);
+                   strains, bearings, rows, counts, codes, sides, slips, forces, points, others,
+                   presses, partials, kFriction, 1e-3f, kYielding, has_moved, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5];
-    };
-    const float rubbed = kYielding * kFriction * kPress;
-    EXPECT_NEAR(lag_at(1.5f * kRange, 1).x, -rubbed, 1e-6f * rubbed);
-    EXPECT_EQ(lag_at(1.5f * kRange, 1).y, 0.0f);
-    EXPECT_NEAR(lag_at(0.6f * kRange, 1).x, -rubbed, 1e-6f * rubbed);
-    const float pushed = kYielding * 1e4f * 0.4f * kRange;
-    EXPECT_NEAR(lag_at(0.6f * kRange, 1).y, pushed, 1e-5f * pushed);
-    EXPECT_NEAR(lag_at(0.6f * kRange, 0).x, -kFriction * pushed, 1e-5f * pushed);
-    EXPECT_EQ(lag_at(1.5f * kRange, 0).x, 0.0f);
+    }
+};
+
+/// What presses are is known before the rounds begin, whatever the gaps are by now.
+TEST(BodiesAsWholes, InTheFirstRoundContactsRubByThePressesThatTheyHave) {
+    for (const float gap : {1.5f, 0.6f}) {
+        OneContact contact;
+        const float4 lag = contact.lag_at(gap * OneContact::kRange, 0);
+        const float rubbed = OneContact::kYielding * OneContact::kFriction * OneContact::kPress;
+        EXPECT_NEAR(lag.x, -rubbed, 1e-6f * rubbed);
+        const float press = gap < 1.0f ? 1e4f * (1.0f - gap) * OneContact::kRange : 0.0f;
+        EXPECT_NEAR(lag.y, OneContact::kYielding * press, 1e-5f * OneContact::kYielding * press);
+        EXPECT_NEAR(contact.presses[0], 0.5f * (OneContact::kPress + press), 1e-3f);
+    }
+}
+
+/// A contact may press far too hard for a round: what rubs is what bears the body.
+TEST(BodiesAsWholes, BehindItTheyRubByWhatBearsTheBody) {
+    OneContact contact;
+    contact.lag_at(0.6f * OneContact::kRange, 0);
+    constexpr float kMean = 0.5f * (50.0f + 80.0f) * OneContact::kYielding;
+    EXPECT_NEAR(contact.partials[13].y, kMean, 1e-5f * kMean);
+    constexpr float kBorne = 0.3f * kMean;
+    contact.bearings[0] = {0.0f, kBorne, 0.0f, kMean};
+    contact.bearings[2] = {0.0f, kMean, 0.0f, 0.0f};
+    const float rubbed = OneContact::kFriction * kBorne;
+    EXPECT_NEAR(contact.lag_at(0.6f * OneContact::kRange, 1).x, -rubbed, 0.01f * rubbed);
 }
 
 /// With the bits of a scene without contacts, which takes no rounds.
@@ -153,7 +176,8 @@ struct CrossedEdges {
         corner2{"corner2", kVertices}, corner3{"corner3", kVertices};
     Buffer<float4> normals{"normals", kVertices}, weights{"weights", kVertices},
         measures{"measures", kVertices};
-    Buffer<float> multipliers{"multipliers", kVertices};
+    Buffer<float> multipliers{"multipliers", kVertices},
+        presses{"presses", 2 * WEFT_ROW_STRIDE*kRoom};
     Buffer<int> push_rows{"push_rows", 4}, push_counts{"push_counts", 2},
         push_needs{"push_needs", 2}, codes{"codes", 2 * WEFT_ROW_STRIDE*kRoom};
     Buffer<float4> sides{"sides", codes.count()}, slips{"slips", codes.count()},
@@ -202,7 +226,7 @@ struct CrossedEdges {
             kernels::collect_pushes, Segments{}, positions, targets, members, shares, columns,
             bodies, leaders, rows, counts, corner0, corner1, corner2, corner3, normals, weights,
             measures, normals, multipliers, push_rows, push_counts, push_needs, codes, sides, slips,
-            forces, points, other_points, standing, 2, 2, 0.0f, 1, 100.0f, 0);
+            forces, points, other_points, presses, standing, 2, 2, 0.5f, 1, 100.0f, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 2);
     }
 };
@@ -218,7 +242,7 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
         EXPECT_EQ(edges.standing[body].w, 1.0f);
-        EXPECT_EQ(edges.points[body].w, 50.0f);
+        EXPECT_EQ(edges.presses[body], 50.0f);
         EXPECT_NEAR(edges.points[body].x, 0.0f, 1e-7f);
         EXPECT_NEAR(edges.points[body].y, body == 0 ? 0.01f : 0.0f, 1e-7f);
         EXPECT_EQ(edges.points[body].y, edges.other_points[1 - body].y);

@@ -47,19 +47,41 @@ point = [0.0, 0.0, 0.0]
 thickness = 0.0034
 )";
 
-/// What too few iterations leave unsolved.
-std::string stiff(double y, int turn) {
+std::string sheet(double y, int turn, double stiffness, int resolution) {
     return fmt::format(R"(
 [[cloth]]
-name = "stiff{1}"
-grid = {{ size = [0.3, 0.3], resolution = [20, 20] }}
+name = "sheet{1}"
+grid = {{ size = [0.3, 0.3], resolution = [{3}, {3}] }}
 rotate = [0, 1, 0, {1}]
 translate = [-0.1, {0}, 0.003]
 density = 0.2
-stretch = {{ stiffness = 1.0e4 }}
+stretch = {{ stiffness = {2} }}
 bend = {{ stiffness = 1.0e-4 }}
 )",
-                       y, turn);
+                       y, turn, stiffness, resolution);
+}
+
+/// What too few iterations leave unsolved.
+std::string stiff(double y, int turn) { return sheet(y, turn, 1.0e4, 20); }
+
+const std::string kGround = R"(
+[[obstacle]]
+shape = "mesh"
+grid = { size = [3.0, 1.0], resolution = [13, 5] }
+)";
+
+std::string block(double y, double young, int number) {
+    return fmt::format(R"(
+[[solid]]
+name = "block{2}"
+grid = {{ size = [0.2, 0.1, 0.15], resolution = [6, 4, 5] }}
+rotate = [0, 1, 0, 17]
+translate = [-0.1, {0}, 0.003]
+density = 300.0
+young = {1}
+poisson = 0.3
+)",
+                       y, young, number);
 }
 
 class Unconverged : public EverySolver {
@@ -78,12 +100,16 @@ protected:
     }
     /// Likewise what 12 frames add to its speed.
     static double gain(ManualRun& run, double friction) {
-        const int last = static_cast<int>(run.model->bodies.size()) - 1;
-        const double before = momentum_of(run, last).velocity.x;
+        return gain(run, friction, run.model->bodies.back());
+    }
+    static double gain(ManualRun& run, double friction, const BodyRange& of) {
+        const auto speed = [&] {
+            return momentum_of(run, of.first_vertex, of.vertex_count).velocity.x;
+        };
+        const double before = speed();
         run.run(12);
         const double across = 1.0 / std::sqrt(1.0 + kTangent * kTangent);
-        const double expected = 0.2 * kGravity * across * (kTangent - friction);
-        return (momentum_of(run, last).velocity.x - before) / expected;
+        return (speed() - before) / (0.2 * kGravity * across * (kTangent - friction));
     }
 };
 
@@ -121,6 +147,41 @@ TEST_P(Unconverged, SticksToClothAsCoulombSays) {
         run.run(12);
         EXPECT_LT(std::abs(momentum_of(run, 1).place.x - before), most)
             << iterations << " iterations";
+    }
+}
+
+/// Not even their weight arrives at the contacts of stiff solids, or hundreds of times as much.
+TEST_P(Unconverged, SolidsRubAsCoulombSays) {
+    const std::string friction = kContact + "friction = 0.2\n";
+    for (const double young : {2.0e5, 2.0e7}) {
+        for (const int iterations : {2, 8}) {
+            ManualRun run(on_slope(head(iterations, friction) + block(0.0536, young, 0) + kGround));
+            run.run(12);
+            for (int part = 1; part <= 2; ++part) {
+                EXPECT_NEAR(gain(run, 0.2, run.model->bodies[0]), 1.0, 0.05)
+                    << young << " Pa, " << iterations << " iterations, part " << part;
+            }
+        }
+    }
+}
+
+/// What lies between two others is pressed by both.
+TEST_P(Unconverged, PilesRubAsCoulombSays) {
+    const std::string friction = kContact + "friction = 0.2\n";
+    const std::string low = sheet(0.0036, 13, 1.0e3, 12);
+    for (const std::string& pile :
+         {low + block(0.0572, 2.0e5, 0), low + sheet(0.0072, 20, 1.0e3, 12),
+          block(0.0536, 2.0e5, 0) + block(0.1572, 2.0e5, 1)}) {
+        for (const int iterations : {2, 8}) {
+            if (GetParam() == Method::kNewton && iterations == 8) continue;  // 10 s
+            ManualRun run(on_slope(head(iterations, friction) + pile + kGround));
+            run.run(12);
+            const BodyRange& high = run.model->bodies[1];
+            BodyRange all = run.model->bodies[0];
+            all.vertex_count += high.vertex_count;
+            EXPECT_NEAR(gain(run, 0.2, all), 1.0, 0.15) << iterations << " iterations" << pile;
+            EXPECT_NEAR(gain(run, 0.2, high), 1.0, 0.15) << iterations << " iterations" << pile;
+        }
     }
 }
 
