@@ -20,7 +20,7 @@ typedef struct {
     real3 offset;  ///< of r [m]; the lag, x~ - x, of these here:
     real3 lag;     ///< [m]
     mat3 lags;     ///< r (x~ - x)^T [m^2]
-    real pushed;   ///< mean of how far obstacles have pushed vertices in this substep [m]
+    real pushed;   ///< above 0 where obstacles have pushed vertices in this substep [m]
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
@@ -73,8 +73,8 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 
 /// The part of one column.
 /// positions  [vertices] xyz: x [m]
-/// targets    [vertices] xyz: x~ [m], w: how far obstacles have pushed it in this substep [m]; with
-///            xpbd, whose bodies turn by themselves, above 0, too
+/// targets    [vertices] xyz: x~ [m], w: above 0 where obstacles have pushed it in this substep (its
+///            grip, obstacles/grip.h [m]), and with xpbd, whose bodies turn by themselves
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
 /// partials  [7 * columns] written, column-major

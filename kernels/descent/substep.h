@@ -5,6 +5,7 @@
 // E(x) = |x - x~|^2_M / (2 h^2) + elements, with x~ as in motion.h.
 
 #include "kernels/motion.h"
+#include "kernels/obstacles/grip.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
@@ -54,12 +55,20 @@ WEFT_KERNEL(copy_positions, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL flo
 /// into the obstacle again in every iteration, and be rubbed every time; so x~ is pushed along.
 /// positions  [vertices] xyz behind the obstacles' pushes [m]
 /// pushed     [vertices] xyz before them
-/// targets    [vertices] xyz: x~; w: how far it has been pushed in this substep
+/// targets    [vertices] xyz: x~; w: its grip (obstacles/grip.h)
 WEFT_KERNEL(push_targets, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* pushed,
             WEFT_GLOBAL float4* targets) {
     const real3 push = subtract(xyz(load4(positions, i)), xyz(load4(pushed, i)));
     const real4 target = load4(targets, i);
-    store4(targets, i, with_w(add(xyz(target), push), target.w + length3(push)));
+    const real grip = grip_of_pushed(target.w, length3(push));
+    store4(targets, i, with_w(add(xyz(target), push), grip));
+}
+
+/// x~ of free vertices that are there by now, of bodies that are never turned.
+/// positions  [vertices] xyz: x~ [m]
+/// targets    [vertices] written: xyz: x~; w: no grip
+WEFT_KERNEL(start_targets, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL float4* targets) {
+    store4(targets, i, with_w(xyz(load4(positions, i)), splat(WEFT_NO_GRIP)));
 }
 
 /// Keeps what begin_descent wants to know in the next substep.

@@ -10,6 +10,7 @@
 // frame: the plane through its first contact is what pushes it out. The vertex and where it came
 // from end up on one side of a plane that has the whole obstacle on its other side.
 
+#include "kernels/obstacles/grip.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
 
@@ -72,21 +73,35 @@ WEFT_INLINE real push_depth(WEFT_GLOBAL const float4* obstacle, real distance, r
     return inverse_mass > splat(0.0f) ? touching : splat(0.0f);
 }
 
-/// Coulomb friction on positions (Macklin et al. 2014, section 6.1): takes back the tangential part
-/// of the vertex's way along the surface, by friction * depth at the most. The obstacle's own
-/// motion counts: the point of the obstacle where the vertex is now, was at S . (W . x) before.
-WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed, real3 previous,
-                                real3 normal, real depth) {
-    const real3 carried = apply(obstacle + 3, apply(obstacle, pushed));
-    const real3 way = subtract(carried, previous);
-    const real3 tangent = add_scaled(way, normal, -dot3(way, normal));
-    const real grip = smaller(depth * obstacle[7].y / divisor(length3(tangent)), splat(1.0f));
-    return scale(tangent, -grip);
+/// How far friction may take a vertex back.
+WEFT_INLINE real most_grip(WEFT_GLOBAL const float4* obstacle, real distance, real grip,
+                           real inverse_mass) {
+    const real most = grip + (splat(obstacle[7].x) - distance) * splat(obstacle[7].y);
+    return inverse_mass > splat(0.0f) ? larger(most, splat(0.0f)) : splat(0.0f);
 }
 
-/// push_out_of_<shape> moves vertices out of one obstacle; rub_on_<shape> does it with friction.
+/// What a vertex has slid along the surface since the substep began. The obstacle's own motion
+/// counts: the point of the obstacle where the vertex is now, was at S . (W . x) before.
+WEFT_INLINE real3 slid_along(WEFT_GLOBAL const float4* obstacle, real3 pushed, real3 previous,
+                             real3 normal) {
+    const real3 carried = apply(obstacle + 3, apply(obstacle, pushed));
+    const real3 way = subtract(carried, previous);
+    return add_scaled(way, normal, -dot3(way, normal));
+}
+
+/// The part of it that friction takes back, which reaches so far [m] at the most.
+WEFT_INLINE real part_held(real3 slid, real most) {
+    return smaller(most / divisor(length3(slid)), splat(1.0f));
+}
+
+/// push_out_of_<shape> moves vertices out of one obstacle; rub_on_<shape> does it with friction:
+/// Coulomb's on positions (Macklin et al. 2014, section 6.1). It takes back what a vertex has slid,
+/// by friction * depth at the most, of all pushes of the substep up to this one. What those before
+/// have left of that is the vertex' grip, which is there as well where it is pushed no more, as by
+/// the step of its body as a whole; less friction * way where it has been lifted off.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]; read and written
 /// previous    [vertices] xyz at the substep's start [m]
+/// grips       [vertices] w: the grip [m]; read and written where has_grips is 1
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
 /// obstacle    which one
 #define WEFT_OBSTACLE_KERNELS(shape)                                                               \
@@ -120,8 +135,8 @@ WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed
     }                                                                                              \
                                                                                                    \
     WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous, \
-                WEFT_GLOBAL const float4* obstacles, int obstacle_count, int obstacle,             \
-                int substep) {                                                                     \
+                WEFT_GLOBAL float4* grips, WEFT_GLOBAL const float4* obstacles, int has_grips,     \
+                int obstacle_count, int obstacle, int substep) {                                   \
         WEFT_GLOBAL const float4* o =                                                              \
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
         const real4 x = load4(positions, i);                                                       \
@@ -134,8 +149,17 @@ WEFT_INLINE real3 friction_step(WEFT_GLOBAL const float4* obstacle, real3 pushed
         const real depth = push_depth(o, near.distance, x.w);                                      \
         const real3 normal = apply_back(o, near.normal);                                           \
         const real3 pushed = add_scaled(xyz(x), normal, depth);                                    \
-        const real3 slid = friction_step(o, pushed, xyz(load4(previous, i)), normal, depth);       \
-        store4(positions, i, with_w(add(pushed, slid), x.w));                                      \
+        const real3 slid = slid_along(o, pushed, xyz(load4(previous, i)), normal);                 \
+        real4 grip = {splat(0.0f), splat(0.0f), splat(0.0f), splat(0.0f)};                         \
+        if (has_grips) grip = load4(grips, i);                                                     \
+        const real most = most_grip(o, near.distance, grip.w, x.w);                                \
+        const real part = part_held(slid, most);                                                   \
+        store4(positions, i, with_w(add_scaled(pushed, slid, -part), x.w));                        \
+        if (has_grips) {                                                                           \
+            const real gain = depth * splat(o[7].y);                                               \
+            const real used = part * length3(slid);                                                \
+            store4(grips, i, with_w(xyz(grip), grip_left(grip.w, gain, used)));                    \
+        }                                                                                          \
     }
 
 WEFT_KERNELS_END

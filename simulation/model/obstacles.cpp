@@ -15,6 +15,7 @@ struct ContactArguments {
     const Segments& vertices;
     Buffer<float4>& positions;
     Buffer<float4>& previous;
+    Buffer<float4>* grips;
     Buffer<float4>& placements;
     int obstacle_count;
     int obstacle;
@@ -23,11 +24,12 @@ struct ContactArguments {
 
 template <class Push, class Rub>
 Launch contact(Push push, Rub rub, const ContactArguments& a) {
-    const auto with = [&](auto kernel) {
-        return launch(kernel, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
-                      a.obstacle, kInstance);
-    };
-    return a.friction ? with(rub) : with(push);
+    if (a.friction) {
+        return launch(rub, a.vertices, a.positions, a.previous, a.grips ? *a.grips : a.positions,
+                      a.placements, a.grips ? 1 : 0, a.obstacle_count, a.obstacle, kInstance);
+    }
+    return launch(push, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
+                  a.obstacle, kInstance);
 }
 
 /// The kernels of each shape of obstacle_shapes.h.
@@ -141,12 +143,14 @@ double distance_to_local(const Obstacle& obstacle, Vec3 local) {
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                             Buffer<float4>& positions, Buffer<float4>& previous) {
+                             Buffer<float4>& positions, Buffer<float4>& previous,
+                             Buffer<float4>* grips) {
     const int count = static_cast<int>(obstacles_.size());
     for (int i = 0; i < count; ++i) {
         const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(i)];
-        launches.push_back(contact_with(obstacle.shape, {vertices, positions, previous, placements_,
-                                                         count, i, obstacle.friction.has_value()}));
+        launches.push_back(
+            contact_with(obstacle.shape, {vertices, positions, previous, grips, placements_, count,
+                                          i, obstacle.friction.has_value()}));
     }
 }
 

@@ -23,9 +23,10 @@ public:
     bool have_width() const;
     bool have_friction() const;
     /// One launch per obstacle that pushes all vertices out of it.
-    /// vertices: one segment per strip
+    /// vertices: one segment per strip. grips: null: what friction has left in one does not count
+    /// in the next ones
     void add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                      Buffer<float4>& positions, Buffer<float4>& previous);
+                      Buffer<float4>& positions, Buffer<float4>& previous, Buffer<float4>* grips);
 
 private:
     std::vector<Obstacle> obstacles_;

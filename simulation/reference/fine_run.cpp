@@ -154,7 +154,8 @@ void FineRun::push_out_of_obstacles(std::size_t vertex, Vec3 previous) {
         if (depth > 0.0) {
             const real3 normal = apply_back(placement, near.normal);
             const real3 pushed = add_scaled(x, normal, depth);
-            x = add(pushed, friction_step(placement, pushed, to_real3(previous), normal, depth));
+            const real3 slid = slid_along(placement, pushed, to_real3(previous), normal);
+            x = add_scaled(pushed, slid, -part_held(slid, depth * splat(placement[7].y)));
             touched = true;
         }
         placement += WEFT_OBSTACLE_ROWS;

@@ -28,7 +28,8 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
 void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
     if (!model_.obstacles) return;
     launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
-    model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous);
+    model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous,
+                                   &targets_);
     launches.push_back(
         launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
 }
@@ -72,7 +73,7 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
     if (model_.obstacles) {
         model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
-                                       *model_.previous);
+                                       *model_.previous, &targets_);
     }
     if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,

@@ -164,7 +164,7 @@ private:
         if (momentum_) return momentum_->add_obstacles(body.launches, *model_.positions);
         if (!model_.obstacles) return;
         model_.obstacles->add_launches(body.launches, model_.vertices(), *model_.positions,
-                                       *model_.previous);
+                                       *model_.previous, nullptr);
     }
 
     void make_push() {
@@ -185,7 +185,7 @@ private:
         // Free vertices are at x~ now.
         if (momentum_) {
             predict_.launches.push_back(
-                launch(kernels::copy_positions, model_.vertices(), *model_.positions, *targets_));
+                launch(kernels::start_targets, model_.vertices(), *model_.positions, *targets_));
         }
         if (contact_) contact_->add_begin(predict_.launches, *model_.positions);
     }

@@ -221,6 +221,12 @@ void copy_case(KernelCase& c) {
     c.launch = launch(kernels::copy_positions, c.segments, positions, copy);
 }
 
+void start_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    c.launch = launch(kernels::start_targets, c.segments, positions, targets);
+}
+
 void push_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& pushed = c.add<float4>("pushed", 2 * c.items);
@@ -243,7 +249,8 @@ const bool added =
     add_case("solve_membrane_stencils", membrane_stencils_case) &&
     add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&
     add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
-    add_case("copy_positions", copy_case) && add_case("push_targets", push_case);
+    add_case("copy_positions", copy_case) && add_case("start_targets", start_case) &&
+    add_case("push_targets", push_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -61,9 +61,18 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
     which.integer = 1;
     c.launch.kernel = &kernel;
     c.launch.segments = c.segments;
-    c.launch.arguments.push_back({&positions});
-    c.launch.arguments.insert(c.launch.arguments.end(),
-                              {{&previous}, {&obstacles}, count, which, substep});
+    c.launch.arguments = {{&positions}, {&previous}};
+    if (kernel.name.starts_with("rub_on_")) {
+        auto& grips = c.add<float4>("grips", c.items);
+        for (float4& grip : grips.span()) grip = c.random.point(0.1f);
+        for (float4& grip : grips.span()) grip.w = std::max(c.random.real(-0.1f, 0.1f), 0.0f);
+        Argument has_grips;
+        has_grips.integer = c.random.integer(0, 1);
+        c.launch.arguments.insert(c.launch.arguments.end(), {{&grips}, {&obstacles}, has_grips});
+    } else {
+        c.launch.arguments.push_back({&obstacles});
+    }
+    c.launch.arguments.insert(c.launch.arguments.end(), {count, which, substep});
 }
 
 }  // namespace

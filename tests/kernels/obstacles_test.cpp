@@ -24,6 +24,7 @@ Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
 struct Contact {
     Buffer<float4> positions{"positions", 1};
     Buffer<float4> previous{"previous", 1};
+    Buffer<float4> grips{"grips", 1};
     Buffer<float4> rows{"obstacles", WEFT_OBSTACLE_ROWS};
 
     Contact(Vec3 point, float4 dimensions, float inverse_mass = 1.0f) {
@@ -43,8 +44,9 @@ struct Contact {
         return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
     }
     template <class Kernel>
-    Vec3 rub(Kernel kernel) {
-        return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
+    Vec3 rub(Kernel kernel, bool has_grips = false) {
+        return run(launch(kernel, Segments{}, positions, previous, grips, rows, has_grips ? 1 : 0,
+                          1, 0, 0));
     }
 
 private:
@@ -137,6 +139,33 @@ TEST(Obstacles, FrictionHoldsUpToItsShareOfTheDepthAndNoFurther) {
         const double slid = std::max(0.0, way - 0.35 * static_cast<double>(kFriction));
         expect_at(contact.rub(kernels::rub_on_plane), {slid, kThickness, 0});
     }
+}
+
+/// As the step of its body as a whole may move it behind the pushes.
+TEST(Obstacles, WhatFrictionHasLeftHoldsWhatIsPushedNoMore) {
+    constexpr double kGrip = 0.35 * static_cast<double>(kFriction);
+    Contact contact({0.05, -0.225, 0}, {});
+    contact.previous[0].x = 0.0f;
+    expect_at(contact.rub(kernels::rub_on_plane, true), {0.0, kThickness, 0});
+    EXPECT_NEAR(contact.grips[0].w, kGrip - 0.05, 1e-6);
+    contact.positions[0].x = 0.1f;
+    expect_at(contact.rub(kernels::rub_on_plane, true), {0.0, kThickness, 0});
+    EXPECT_NEAR(contact.grips[0].w, kGrip - 0.15, 1e-6);
+    contact.positions[0].x = 0.1f;
+    expect_at(contact.rub(kernels::rub_on_plane, true), {0.25 - kGrip, kThickness, 0});
+    EXPECT_NEAR(contact.grips[0].w, 0.0, 1e-6);
+    EXPECT_GT(contact.grips[0].w, 0.0f) << "it has been pushed";
+}
+
+TEST(Obstacles, FrictionHoldsNothingThatIsLiftedOff) {
+    Contact contact({0.0, kThickness + 0.1f, 0}, {});
+    contact.previous[0].x = 0.02f;
+    contact.grips[0].w = 0.1f * kFriction;
+    expect_at(contact.rub(kernels::rub_on_plane, true),
+              {0.0, static_cast<double>(kThickness) + 0.1, 0});
+    Contact apart({0.0, kThickness + 0.1f, 0}, {});
+    apart.rub(kernels::rub_on_plane, true);
+    EXPECT_EQ(apart.grips[0].w, 0.0f) << "nor has it been pushed";
 }
 
 TEST(Obstacles, MovingObstacleCarriesWhatItHolds) {
