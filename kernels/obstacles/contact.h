@@ -10,6 +10,7 @@
 // frame: the plane through its first contact is what pushes it out. The vertex and where it came
 // from end up on one side of a plane that has the whole obstacle on its other side.
 
+#include "kernels/lanes.h"
 #include "kernels/obstacles/grip.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
@@ -97,11 +98,12 @@ WEFT_INLINE real part_held(real3 slid, real most) {
 /// push_out_of_<shape> moves vertices out of one obstacle; rub_on_<shape> does it with friction:
 /// Coulomb's on positions (Macklin et al. 2014, section 6.1). It takes back what a vertex has slid,
 /// by friction * depth at the most, of all pushes of the substep up to this one. What those before
-/// have left of that is the vertex' grip, which is there as well where it is pushed no more, as by
-/// the step of its body as a whole; less friction * way where it has been lifted off.
+/// have left of that is the vertex' grip. Behind the last of them, when its body has moved as a
+/// whole, that holds what is pushed no more, too; less friction * way where it has been lifted off.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]; read and written
 /// previous    [vertices] xyz at the substep's start [m]
 /// grips       [vertices] w: the grip [m]; read and written where has_grips is 1
+/// is_last     1 behind the step of bodies as wholes
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
 /// obstacle    which one
 #define WEFT_OBSTACLE_KERNELS(shape)                                                               \
@@ -136,7 +138,7 @@ WEFT_INLINE real part_held(real3 slid, real most) {
                                                                                                    \
     WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous, \
                 WEFT_GLOBAL float4* grips, WEFT_GLOBAL const float4* obstacles, int has_grips,     \
-                int obstacle_count, int obstacle, int substep) {                                   \
+                int is_last, int obstacle_count, int obstacle, int substep) {                      \
         WEFT_GLOBAL const float4* o =                                                              \
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
         const real4 x = load4(positions, i);                                                       \
@@ -148,18 +150,24 @@ WEFT_INLINE real part_held(real3 slid, real most) {
             near = near_##shape(end, o[6]);                                                        \
         const real depth = push_depth(o, near.distance, x.w);                                      \
         const real3 normal = apply_back(o, near.normal);                                           \
-        const real3 pushed = add_scaled(xyz(x), normal, depth);                                    \
-        const real3 slid = slid_along(o, pushed, xyz(load4(previous, i)), normal);                 \
-        real4 grip = {splat(0.0f), splat(0.0f), splat(0.0f), splat(0.0f)};                         \
-        if (has_grips) grip = load4(grips, i);                                                     \
-        const real most = most_grip(o, near.distance, grip.w, x.w);                                \
-        const real part = part_held(slid, most);                                                   \
-        store4(positions, i, with_w(add_scaled(pushed, slid, -part), x.w));                        \
-        if (has_grips) {                                                                           \
-            const real gain = depth * splat(o[7].y);                                               \
-            const real used = part * length3(slid);                                                \
-            store4(grips, i, with_w(xyz(grip), grip_left(grip.w, gain, used)));                    \
+        real3 place = add_scaled(xyz(x), normal, depth);                                           \
+        if (is_last || any_item(depth > splat(0.0f))) {                                            \
+            real4 grip = {splat(0.0f), splat(0.0f), splat(0.0f), splat(0.0f)};                     \
+            if (has_grips) grip = load4(grips, i);                                                 \
+            const real most = most_grip(o, near.distance, grip.w, x.w);                            \
+            const real held = is_last ? most : depth;                                              \
+            const real3 slid = slid_along(o, place, xyz(load4(previous, i)), normal);              \
+            const real part = held > splat(0.0f) ? part_held(slid, most) : splat(0.0f);            \
+            place.x = held > splat(0.0f) ? place.x - slid.x * part : place.x;                      \
+            place.y = held > splat(0.0f) ? place.y - slid.y * part : place.y;                      \
+            place.z = held > splat(0.0f) ? place.z - slid.z * part : place.z;                      \
+            if (has_grips) {                                                                       \
+                const real gain = depth * splat(o[7].y);                                           \
+                const real used = part * length3(slid);                                            \
+                store4(grips, i, with_w(xyz(grip), grip_left(grip.w, gain, used)));                \
+            }                                                                                      \
         }                                                                                          \
+        store4(positions, i, with_w(place, x.w));                                                  \
     }
 
 WEFT_KERNELS_END

@@ -26,5 +26,6 @@ struct real4 {
 
 WEFT_INLINE real splat(float value) { return static_cast<real>(value); }
 WEFT_INLINE real square_root(real value) { return std::sqrt(value); }
+WEFT_INLINE bool any_item(bool mask) { return mask; }
 
 WEFT_KERNELS_END

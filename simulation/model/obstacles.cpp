@@ -15,7 +15,7 @@ struct ContactArguments {
     const Segments& vertices;
     Buffer<float4>& positions;
     Buffer<float4>& previous;
-    Buffer<float4>* grips;
+    Grips grips;
     Buffer<float4>& placements;
     int obstacle_count;
     int obstacle;
@@ -25,8 +25,9 @@ struct ContactArguments {
 template <class Push, class Rub>
 Launch contact(Push push, Rub rub, const ContactArguments& a) {
     if (a.friction) {
-        return launch(rub, a.vertices, a.positions, a.previous, a.grips ? *a.grips : a.positions,
-                      a.placements, a.grips ? 1 : 0, a.obstacle_count, a.obstacle, kInstance);
+        return launch(rub, a.vertices, a.positions, a.previous,
+                      a.grips.of ? *a.grips.of : a.positions, a.placements, a.grips.of ? 1 : 0,
+                      a.grips.are_last ? 1 : 0, a.obstacle_count, a.obstacle, kInstance);
     }
     return launch(push, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
                   a.obstacle, kInstance);
@@ -143,8 +144,7 @@ double distance_to_local(const Obstacle& obstacle, Vec3 local) {
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                             Buffer<float4>& positions, Buffer<float4>& previous,
-                             Buffer<float4>* grips) {
+                             Buffer<float4>& positions, Buffer<float4>& previous, Grips grips) {
     const int count = static_cast<int>(obstacles_.size());
     for (int i = 0; i < count; ++i) {
         const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(i)];

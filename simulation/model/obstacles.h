@@ -7,6 +7,12 @@
 
 namespace weft {
 
+/// What friction has left to hold with in a substep (kernels/obstacles/grip.h).
+struct Grips {
+    Buffer<float4>* of = nullptr;  ///< [vertices] null: it does not count in the pushes that follow
+    bool are_last = false;         ///< they hold what is pushed no more, too
+};
+
 /// The obstacles of a scene on the devices: where each is in every substep of a frame.
 class Obstacles {
 public:
@@ -23,10 +29,9 @@ public:
     bool have_width() const;
     bool have_friction() const;
     /// One launch per obstacle that pushes all vertices out of it.
-    /// vertices: one segment per strip. grips: null: what friction has left in one does not count
-    /// in the next ones
+    /// vertices: one segment per strip
     void add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                      Buffer<float4>& positions, Buffer<float4>& previous, Buffer<float4>* grips);
+                      Buffer<float4>& positions, Buffer<float4>& previous, Grips grips);
 
 private:
     std::vector<Obstacle> obstacles_;

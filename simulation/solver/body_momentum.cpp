@@ -29,7 +29,7 @@ void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& 
     if (!model_.obstacles) return;
     launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
     model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous,
-                                   &targets_);
+                                   {&targets_, false});
     launches.push_back(
         launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
 }
@@ -73,7 +73,7 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
     if (model_.obstacles) {
         model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
-                                       *model_.previous, &targets_);
+                                       *model_.previous, {&targets_, true});
     }
     if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,

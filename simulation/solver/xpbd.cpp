@@ -164,7 +164,7 @@ private:
         if (momentum_) return momentum_->add_obstacles(body.launches, *model_.positions);
         if (!model_.obstacles) return;
         model_.obstacles->add_launches(body.launches, model_.vertices(), *model_.positions,
-                                       *model_.previous, nullptr);
+                                       *model_.previous, {});
     }
 
     void make_push() {

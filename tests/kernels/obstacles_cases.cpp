@@ -66,9 +66,11 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
         auto& grips = c.add<float4>("grips", c.items);
         for (float4& grip : grips.span()) grip = c.random.point(0.1f);
         for (float4& grip : grips.span()) grip.w = std::max(c.random.real(-0.1f, 0.1f), 0.0f);
-        Argument has_grips;
+        Argument has_grips, is_last;
         has_grips.integer = c.random.integer(0, 1);
-        c.launch.arguments.insert(c.launch.arguments.end(), {{&grips}, {&obstacles}, has_grips});
+        is_last.integer = c.random.integer(0, 1);
+        c.launch.arguments.insert(c.launch.arguments.end(),
+                                  {{&grips}, {&obstacles}, has_grips, is_last});
     } else {
         c.launch.arguments.push_back({&obstacles});
     }

@@ -44,9 +44,9 @@ struct Contact {
         return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
     }
     template <class Kernel>
-    Vec3 rub(Kernel kernel, bool has_grips = false) {
+    Vec3 rub(Kernel kernel, bool has_grips = false, bool is_last = false) {
         return run(launch(kernel, Segments{}, positions, previous, grips, rows, has_grips ? 1 : 0,
-                          1, 0, 0));
+                          is_last ? 1 : 0, 1, 0, 0));
     }
 
 private:
@@ -149,10 +149,11 @@ TEST(Obstacles, WhatFrictionHasLeftHoldsWhatIsPushedNoMore) {
     expect_at(contact.rub(kernels::rub_on_plane, true), {0.0, kThickness, 0});
     EXPECT_NEAR(contact.grips[0].w, kGrip - 0.05, 1e-6);
     contact.positions[0].x = 0.1f;
-    expect_at(contact.rub(kernels::rub_on_plane, true), {0.0, kThickness, 0});
+    expect_at(contact.rub(kernels::rub_on_plane, true), {0.1, kThickness, 0});
+    expect_at(contact.rub(kernels::rub_on_plane, true, true), {0.0, kThickness, 0});
     EXPECT_NEAR(contact.grips[0].w, kGrip - 0.15, 1e-6);
     contact.positions[0].x = 0.1f;
-    expect_at(contact.rub(kernels::rub_on_plane, true), {0.25 - kGrip, kThickness, 0});
+    expect_at(contact.rub(kernels::rub_on_plane, true, true), {0.25 - kGrip, kThickness, 0});
     EXPECT_NEAR(contact.grips[0].w, 0.0, 1e-6);
     EXPECT_GT(contact.grips[0].w, 0.0f) << "it has been pushed";
 }
@@ -161,10 +162,10 @@ TEST(Obstacles, FrictionHoldsNothingThatIsLiftedOff) {
     Contact contact({0.0, kThickness + 0.1f, 0}, {});
     contact.previous[0].x = 0.02f;
     contact.grips[0].w = 0.1f * kFriction;
-    expect_at(contact.rub(kernels::rub_on_plane, true),
+    expect_at(contact.rub(kernels::rub_on_plane, true, true),
               {0.0, static_cast<double>(kThickness) + 0.1, 0});
     Contact apart({0.0, kThickness + 0.1f, 0}, {});
-    apart.rub(kernels::rub_on_plane, true);
+    apart.rub(kernels::rub_on_plane, true, true);
     EXPECT_EQ(apart.grips[0].w, 0.0f) << "nor has it been pushed";
 }
 
