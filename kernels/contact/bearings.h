@@ -53,7 +53,8 @@ WEFT_INLINE void store_bearing(WEFT_GLOBAL float4* bearings, int rows, item i, b
 }
 
 /// What the presses of a body along a normal have to be multiplied by. Where they hold each other
-/// the balance, as those on both sides of what is squeezed, the body's motion says nothing of them.
+/// the balance, as those on both sides of what is squeezed, the body's motion says nothing of them;
+/// nor do presses that are next to nothing say how a load is shared out, so there is a limit.
 WEFT_INLINE real correction_of(bearing b, real3 normal) {
     const real unit = splat(1.0f) / divisor(b.press);
     const real pressed = dot3(b.pressed, normal) * unit;

@@ -213,7 +213,8 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
     store4(partials, column(i, column_count, 6), with_w(sum.lag.turn, sum.outside.mixed.z.z));
     if (is_strain) return;
     store_sym6(partials + 7 * column_count, column_count, i, sum.outside);
-    if (friction > 0.0f) store_bearing(partials + 12 * column_count, column_count, i, sum.borne);
+    if (friction > 0.0f)
+        store_bearing(partials + WEFT_BODY_PARTS * column_count, column_count, i, sum.borne);
 }
 
 /// What a run has of strains; of motions that is all but what is outside.
@@ -230,7 +231,7 @@ WEFT_INLINE body_sum gather_body_sum(WEFT_GLOBAL const float4* lags, int lag_cou
     body_sum sum = gather_strain_sum(lags, lag_count, run);
     const real zz = gather4(lags + 6 * lag_count, run).w;
     sum.outside = gather_sym6(lags + 7 * lag_count, lag_count, run, zz);
-    if (is_rubbed) sum.borne = gather_bearing(lags + 12 * lag_count, lag_count, run);
+    if (is_rubbed) sum.borne = gather_bearing(lags + WEFT_BODY_PARTS * lag_count, lag_count, run);
     return sum;
 }
 
