@@ -16,7 +16,13 @@ WEFT_INLINE real3 falling_velocity(real4 velocity, real inverse_mass, float4 gra
     return scale(v, free);
 }
 
-/// Moves every vertex as if nothing held it: x~ = x + h (v + h g).
+/// x~ = x + h (v + h g): where a vertex gets to if nothing holds it. Parameters as in `predict`.
+WEFT_INLINE real3 falling_place(real3 previous, real4 velocity, real inverse_mass, float4 gravity,
+                                float h) {
+    return add_scaled(previous, falling_velocity(velocity, inverse_mass, gravity, h), splat(h));
+}
+
+/// Moves every vertex as if nothing held it.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]; from x to x~
 /// previous    [vertices] written: x
 /// velocities  [vertices] xyz [m/s]
@@ -27,9 +33,9 @@ WEFT_KERNEL(predict, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* previous
             WEFT_GLOBAL const float4* velocities, WEFT_GLOBAL const float4* gravity, float h,
             int substep) {
     const real4 x = load4(positions, i);
-    const real3 v = falling_velocity(load4(velocities, i), x.w, gravity[substep], h);
+    const real3 target = falling_place(xyz(x), load4(velocities, i), x.w, gravity[substep], h);
     store4(previous, i, x);
-    store4(positions, i, with_w(add_scaled(xyz(x), v, splat(h)), x.w));
+    store4(positions, i, with_w(target, x.w));
 }
 
 /// What the solver did, as a velocity. v = v~ + (x - x~) / h, with v~ and x~ made again by the same

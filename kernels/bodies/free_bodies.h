@@ -33,7 +33,7 @@ WEFT_KERNEL(solve_runs, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* f
             int run_count) {
     const real zero = splat(0.0f);
     const moments m = sum_of_runs(sums, load_whole(first_run, i), load(counts, i), most_runs);
-    store4(motions, i, with_w(m.lag, zero));
+    store4(motions, i, with_w(without_throw(m.lag, m, no_motion().shift), zero));
     store4(motions, column(i, run_count + 1, 1), with_w(missing_turn(m), zero));
     store4(motions, column(i, run_count + 1, 2), with_w(m.centre, zero));
 }

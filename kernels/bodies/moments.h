@@ -7,7 +7,7 @@
 // r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
-#define WEFT_MOMENT_PARTS 7
+#define WEFT_MOMENT_PARTS 8
 
 #include "kernels/bodies/motions.h"
 #include "kernels/bodies/runs.h"
@@ -20,13 +20,23 @@ typedef struct {
     real3 offset;  ///< of r [m]; the lag, x~ - x, of these here:
     real3 lag;     ///< [m]
     mat3 lags;     ///< r (x~ - x)^T [m^2]
+    real3 push;    ///< of obstacles, by which they moved x~ [m]
+    real3 way;     ///< that it has gone in the substep [m]; 0 without obstacles, as are those here
+    real lead;     ///< of push . way: of what has been pushed [m^2]
     real pushed;   ///< above 0 where obstacles have pushed vertices in this substep [m]
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
     const real3 zero = no_motion().shift;
-    moments m = {zero, diagonal_sym(splat(0.0f)),  zero,
-                 zero, make_mat(zero, zero, zero), splat(0.0f)};
+    moments m = {zero,
+                 diagonal_sym(splat(0.0f)),
+                 zero,
+                 zero,
+                 make_mat(zero, zero, zero),
+                 zero,
+                 zero,
+                 splat(0.0f),
+                 splat(0.0f)};
     return m;
 }
 
@@ -37,11 +47,14 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.lag = add_scaled(a.lag, b.lag, share);
     a.lags = make_mat(add_scaled(a.lags.x, b.lags.x, share), add_scaled(a.lags.y, b.lags.y, share),
                       add_scaled(a.lags.z, b.lags.z, share));
+    a.push = add_scaled(a.push, b.push, share);
+    a.way = add_scaled(a.way, b.way, share);
+    a.lead = a.lead + b.lead * share;
     a.pushed = a.pushed + b.pushed * share;
     return a;
 }
 
-/// table  [7 * rows] column-major: a column per part
+/// table  [8 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -50,7 +63,8 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 3), with_w(m.lags.x, m.lag.x));
     store4(table, column(i, rows, 4), with_w(m.lags.y, m.lag.y));
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
-    store4(table, column(i, rows, 6), with_w(no_motion().shift, m.pushed));
+    store4(table, column(i, rows, 6), with_w(m.push, m.pushed));
+    store4(table, column(i, rows, 7), with_w(m.way, m.lead));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -67,7 +81,12 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
     m.offset = xyz(c);
     m.lag = make3(x.w, y.w, z.w);
     m.lags = make_mat(xyz(x), xyz(y), xyz(z));
-    m.pushed = gather4(table + 6 * stride, k).w;
+    const real4 push = gather4(table + 6 * stride, k);
+    m.push = xyz(push);
+    m.pushed = push.w;
+    const real4 way = gather4(table + 7 * stride, k);
+    m.way = xyz(way);
+    m.lead = way.w;
     return m;
 }
 
@@ -75,13 +94,16 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 /// positions  [vertices] xyz: x [m]
 /// targets    [vertices] xyz: x~ [m], w: above 0 where obstacles have pushed it in this substep (its
 ///            grip, obstacles/grip.h [m]), and with xpbd, whose bodies turn by themselves
+/// previous, pushes  [vertices] xyz: where each was at the substep's start, and how far obstacles
+///            have pushed its x~ [m]; not read without has_pushes
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// partials  [7 * columns] written, column-major
+/// partials  [8 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
+            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* pushes,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
-            WEFT_GLOBAL float4* partials, int column_count) {
+            WEFT_GLOBAL float4* partials, int has_pushes, int column_count) {
     const real3 origin = xyz(gather4(positions, load_index(origins, i)));
     moments sum = no_moments();
     const int length = rows[2 * i.first + 1];
@@ -92,14 +114,21 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         const real3 r = subtract(x, origin);
         const real4 target = gather4(targets, v);
         const real3 lag = subtract(xyz(target), x);
-        const moments one = {x, outer_sym(r, splat(1.0f)), r, lag, outer_mat(r, lag), target.w};
+        real3 push = no_motion().shift;
+        real3 way = push;
+        if (has_pushes) {
+            push = xyz(gather4(pushes, v));
+            way = subtract(x, xyz(gather4(previous, v)));
+        }
+        const moments one = {x,   outer_sym(r, splat(1.0f)), r,       lag, outer_mat(r, lag), push,
+                             way, dot3(push, way),           target.w};
         sum = add_share_of_moments(sum, one, load(shares, entry));
     }
     store_moments(partials, column_count, i, sum);
 }
 
 /// The moments of a body, from its centre of mass.
-/// sums   [7 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// sums   [8 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
 WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
@@ -118,10 +147,27 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
     return sum;
 }
 
+/// What a body lacks, less what obstacles have pushed it too far. They push single vertices by what
+/// these alone weigh, again in each iteration, until what lies behind them has followed; after many
+/// iterations that are yet too few, that may be more than the body needs. But what bears a body
+/// does not throw it: what it lacks may lead the body as far as what has been pushed has got to,
+/// and all that would lead it further has not been pushed.
+/// lag   how far its inertia leads the body from where it is, with all pushes [m]
+/// gone  how far it has been moved since its moments were taken [m]
+WEFT_INLINE real3 without_throw(real3 lag, moments m, real3 gone) {
+    const real zero = splat(0.0f);
+    const real length = length3(m.push);
+    const real shrink = splat(1.0f) / divisor(length);
+    const real3 up = scale(m.push, shrink);
+    const real behind = m.lead * shrink - dot3(up, add(m.way, gone));
+    const real excess = dot3(lag, up) - larger(behind, zero);
+    return add_scaled(lag, up, -larger(smaller(excess, length), zero));
+}
+
 /// Adds up the runs of each body.
 /// sums               as in sum_of_runs
 /// first_run, counts  [bodies]
-/// moments_of         [7 * (bodies + 1)] written, column-major; of the last one nothing
+/// moments_of         [8 * (bodies + 1)] written, column-major; of the last one nothing
 WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {

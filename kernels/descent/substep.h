@@ -27,8 +27,7 @@ WEFT_KERNEL(begin_descent, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* pr
             WEFT_GLOBAL const float4* gravity, float h, float h2, int substep) {
     const real4 x = load4(positions, i);
     const float4 g = gravity[substep];
-    const real3 v = falling_velocity(load4(velocities, i), x.w, g, h);
-    const real3 target = add_scaled(xyz(x), v, splat(h));
+    const real3 target = falling_place(xyz(x), load4(velocities, i), x.w, g, h);
 
     const real3 held = xyz(load4(targets, i));
     const float size = g.x * g.x + g.y * g.y + g.z * g.z;
@@ -62,6 +61,18 @@ WEFT_KERNEL(push_targets, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const
     const real4 target = load4(targets, i);
     const real grip = grip_of_pushed(target.w, length3(push));
     store4(targets, i, with_w(add(xyz(target), push), grip));
+}
+
+/// How far obstacles have pushed x~ in a substep.
+/// targets     [vertices] xyz: x~ [m]
+/// previous, velocities  [vertices] as begin_descent or `predict` has left them
+/// pushes      [vertices] xyz written [m]
+WEFT_KERNEL(pushes_of_targets, WEFT_GLOBAL const float4* targets,
+            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* velocities,
+            WEFT_GLOBAL const float4* gravity, WEFT_GLOBAL float4* pushes, float h, int substep) {
+    const real4 x = load4(previous, i);
+    const real3 start = falling_place(xyz(x), load4(velocities, i), x.w, gravity[substep], h);
+    store4(pushes, i, with_w(subtract(xyz(load4(targets, i)), start), splat(0.0f)));
 }
 
 /// x~ of free vertices that are there by now, of bodies that are never turned.

@@ -41,10 +41,11 @@ void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last
 
 void BodyMomentum::look_at(Buffer<float4>& positions) {
     positions_ = &positions;
+    Buffer<float4>* const pushes = model_.obstacles ? pushed_.get() : nullptr;
     if (touching_)
-        sums_.launches = touching_->sum(positions, targets_, sums_.kind);
+        sums_.launches = touching_->sum(positions, targets_, pushes, sums_.kind);
     else if (lone_)
-        sums_.launches = lone_->sums().sum(positions, targets_);
+        sums_.launches = lone_->sums().sum(model_, positions, targets_, pushes);
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {

@@ -4,6 +4,7 @@
 
 #include "runtime/planning/regions.h"
 #include "runtime/step.h"
+#include "simulation/model/model.h"
 #include "simulation/solver/free_bodies.h"
 
 namespace weft {
@@ -15,21 +16,24 @@ public:
     /// bodies must outlive this.
     explicit MomentSums(FreeBodies& bodies);
 
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets);
+    /// pushes: [vertices] for how far obstacles have moved targets; null: there are none.
+    std::vector<Launch> sum(Model& model, Buffer<float4>& positions, Buffer<float4>& targets,
+                            Buffer<float4>* pushes);
     /// What that needs of a region, besides its own positions and targets,
     void add_sum_accesses(Step::Adding& task, const Region& region);
     /// and of others: the vertex that a body is seen from may lie there.
     void add_origin_reads(Step::Adding& task, const Region& region, Buffer<float4>& positions);
 
-    /// [columns], [7 * (runs + most_runs)] see the kernels
+    /// [columns], [8 * (runs + most_runs)] see the kernels
     Buffer<int>& origins() { return origins_; }
     Buffer<float4>& sums() { return sums_; }
     void add_reads(Step::Adding& task);
 
 private:
     FreeBodies& bodies_;
+    Model* pushed_ = nullptr;  ///< whose vertices obstacles push; null: none do
     Buffer<int> origins_;
-    Buffer<float4> partials_;  ///< [7 * columns]
+    Buffer<float4> partials_;  ///< [8 * columns]
     Buffer<float4> sums_;
 };
 

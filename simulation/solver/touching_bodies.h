@@ -21,7 +21,8 @@ public:
                    Buffer<float>* multipliers, int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
-    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets, int kind);
+    std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
+                            Buffer<float4>* pushes, int kind);
     /// All rounds: sums, each followed by steps. body: with what sum() gave
     void add_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions,
                     Buffer<float4>& positions, int iteration);
@@ -46,7 +47,7 @@ private:
     std::vector<Launch> solve(int has_moved);
     int body_count() const { return groups_.body_count(); }
 
-    const Model& model_;
+    Model& model_;
     FreeBodies& bodies_;
     int is_rubbed_;  ///< 1 with friction
     int parts_;      ///< that are summed up

@@ -24,7 +24,7 @@ Eigen::Vector3d in_double(real3 v) { return {v.x, v.y, v.z}; }
 struct Cloud {
     static constexpr int kColumns = WEFT_RUN_COLUMNS;
     int count;
-    Buffer<float4> positions, targets;
+    Buffer<float4> positions, targets, previous, pushes;
     Buffer<int> members{"members", kColumns}, rows{"rows", 2 * kColumns},
         origins{"origins", kColumns}, first_run{"first_run", 1},
         starts{"starts", WEFT_MOMENT_PARTS}, places{"places", WEFT_MOMENT_PARTS};
@@ -35,7 +35,9 @@ struct Cloud {
     explicit Cloud(int vertices)
         : count(vertices),
           positions("positions", static_cast<std::size_t>(vertices)),
-          targets("targets", positions.count()) {
+          targets("targets", positions.count()),
+          previous("previous", positions.count()),
+          pushes("pushes", positions.count()) {
         counts[0] = 1.0f;
         for (int part = 0; part < WEFT_MOMENT_PARTS; ++part) {
             starts[static_cast<std::size_t>(part)] = kColumns * part;
@@ -55,8 +57,8 @@ struct Cloud {
     }
 
     moments weigh() {
-        run(launch(kernels::add_moments, Segments{}, positions, targets, members, shares, rows,
-                   origins, partials, kColumns),
+        run(launch(kernels::add_moments, Segments{}, positions, targets, previous, pushes, members,
+                   shares, rows, origins, partials, 1, kColumns),
             kColumns);
         run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
             WEFT_MOMENT_PARTS);
@@ -120,6 +122,33 @@ TEST(BodyMoments, TellWhatIsLeftOfABodyThatIsTurned) {
         const Eigen::Vector3d expected = cloud.angular_lag(turn);
         EXPECT_LT((in_double(lag_of_turn(found, turn)) - expected).norm(), 1e-3 * expected.norm());
     }
+}
+
+/// What bears it has pushed it further than it needs; x~ leads it by `lag`, and it has gone `way`.
+real3 borne_lag(real3 lag, real3 way) {
+    Heap cloud;
+    for (std::size_t v = 0; v < cloud.positions.count(); ++v) {
+        const float4 x = cloud.positions[v];
+        const bool is_pushed = v < 5;
+        cloud.pushes[v] = {0.0f, is_pushed ? 0.04f : 0.0f, 0.0f, 0.0f};
+        cloud.previous[v] = is_pushed ? x : float4{x.x - way.x, x.y - way.y, x.z - way.z, x.w};
+    }
+    return without_throw(lag, cloud.weigh(), make3(0.0f, 0.0f, 0.0f));
+}
+
+/// All of them a mean push of 0.01.
+TEST(BodyMoments, WhatBearsABodyDoesNotThrowIt) {
+    const real3 still = make3(0.0f, 0.0f, 0.0f);
+    const auto expect = [](real3 found, double x, double y) {
+        EXPECT_LT((in_double(found) - Eigen::Vector3d(x, y, 0.0)).norm(), 1e-6);
+    };
+    expect(borne_lag(make3(0.002f, 0.004f, 0.0f), still), 0.002, 0.0);
+    expect(borne_lag(make3(0.002f, -0.004f, 0.0f), still), 0.002, -0.004);
+    // No more is taken than it has been pushed.
+    expect(borne_lag(make3(0.0f, 0.014f, 0.0f), still), 0.0, 0.004);
+    // What falls onto it is braked: three quarters of the vertices have gone down by 0.004.
+    expect(borne_lag(make3(0.0f, 0.002f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.002);
+    expect(borne_lag(make3(0.0f, 0.005f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.003);
 }
 
 /// Pushed at one end: by a contact of that normal there.
