@@ -158,35 +158,19 @@ void add_elements(LeftOutList& list, const Model& model) {
 
 void add_obstacles(LeftOutList& list, const Model& model) {
     const std::string push = "push_out_of_";
-    const std::string rub = "rub_on_";
-    const auto is_rub = [&](const KernelInfo& kernel) { return kernel.name.starts_with(rub); };
     if (!model.obstacles) {
-        list.add_with("obstacles", "the scene has no [[obstacle]]", [&](const KernelInfo& kernel) {
-            return kernel.name.starts_with(push) || is_rub(kernel);
-        });
+        list.add_with("obstacles", "the scene has no [[obstacle]]",
+                      [&](const KernelInfo& kernel) { return kernel.name.starts_with(push); });
         list.add("friction", "the scene has no [[obstacle]]");
         return;
     }
     if (!model.obstacles->have_friction()) {
-        list.add_with("friction", "no obstacle has friction above 0", is_rub);
+        list.add("friction", "no obstacle has friction above 0");
     }
     for (const ObstacleShape& shape : obstacle_shapes()) {
-        const auto is_shape = [&](const Obstacle& o) { return o.shape == shape.name; };
-        const auto smooth = [&](const Obstacle& o) { return is_shape(o) && !o.friction; };
-        const auto rough = [&](const Obstacle& o) { return is_shape(o) && o.friction.has_value(); };
-        const auto& obstacles = model.scene.obstacles;
-        if (!any_of(obstacles, is_shape)) {
-            list.add_with(
-                "shape " + shape.name, "no obstacle has this shape", [&](const KernelInfo& kernel) {
-                    return kernel.name == push + shape.name || kernel.name == rub + shape.name;
-                });
-        } else if (!any_of(obstacles, smooth)) {
-            list.add(shape.name + " without friction", "every such obstacle has friction",
-                     push + shape.name);
-        } else if (!any_of(obstacles, rough) && model.obstacles->have_friction()) {
-            list.add(shape.name + " with friction", "no such obstacle has friction",
-                     rub + shape.name);
-        }
+        const auto is_it = [&](const Obstacle& o) { return o.shape == shape.name; };
+        if (any_of(model.scene.obstacles, is_it)) continue;
+        list.add("shape " + shape.name, "no obstacle has this shape", push + shape.name);
     }
 }
 

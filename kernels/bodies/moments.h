@@ -94,13 +94,13 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 /// positions  [vertices] xyz: x [m]
 /// targets    [vertices] xyz: x~ [m], w: above 0 where obstacles have pushed it in this substep (its
 ///            grip, obstacles/grip.h [m]), and with xpbd, whose bodies turn by themselves
-/// previous, pushes  [vertices] xyz: where each was at the substep's start, and how far obstacles
-///            have pushed its x~ [m]; not read without has_pushes
+/// previous, starts  [vertices] xyz: x and x~ before obstacles have pushed [m]; not read unless
+///            has_pushes
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
 /// partials  [8 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
-            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* pushes,
+            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
             WEFT_GLOBAL float4* partials, int has_pushes, int column_count) {
@@ -117,7 +117,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         real3 push = no_motion().shift;
         real3 way = push;
         if (has_pushes) {
-            push = xyz(gather4(pushes, v));
+            push = subtract(xyz(target), xyz(gather4(starts, v)));
             way = subtract(x, xyz(gather4(previous, v)));
         }
         const moments one = {x,   outer_sym(r, splat(1.0f)), r,       lag, outer_mat(r, lag), push,

@@ -50,31 +50,6 @@ WEFT_KERNEL(copy_positions, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL flo
     store4(copy, i, load4(positions, i));
 }
 
-/// Lets a push by obstacles count once. The inertia that pulls a vertex towards x~ would pull it
-/// into the obstacle again in every iteration, and be rubbed every time; so x~ is pushed along.
-/// positions  [vertices] xyz behind the obstacles' pushes [m]
-/// pushed     [vertices] xyz before them
-/// targets    [vertices] xyz: x~; w: its grip (obstacles/grip.h)
-WEFT_KERNEL(push_targets, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* pushed,
-            WEFT_GLOBAL float4* targets) {
-    const real3 push = subtract(xyz(load4(positions, i)), xyz(load4(pushed, i)));
-    const real4 target = load4(targets, i);
-    const real grip = grip_of_pushed(target.w, length3(push));
-    store4(targets, i, with_w(add(xyz(target), push), grip));
-}
-
-/// How far obstacles have pushed x~ in a substep.
-/// targets     [vertices] xyz: x~ [m]
-/// previous, velocities  [vertices] as begin_descent or `predict` has left them
-/// pushes      [vertices] xyz written [m]
-WEFT_KERNEL(pushes_of_targets, WEFT_GLOBAL const float4* targets,
-            WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* velocities,
-            WEFT_GLOBAL const float4* gravity, WEFT_GLOBAL float4* pushes, float h, int substep) {
-    const real4 x = load4(previous, i);
-    const real3 start = falling_place(xyz(x), load4(velocities, i), x.w, gravity[substep], h);
-    store4(pushes, i, with_w(subtract(xyz(load4(targets, i)), start), splat(0.0f)));
-}
-
 /// x~ of free vertices that are there by now, of bodies that are never turned.
 /// positions  [vertices] xyz: x~ [m]
 /// targets    [vertices] written: xyz: x~; w: no grip

@@ -3,7 +3,7 @@
 
 // What all obstacle shapes share. A shape is convex and supplies one function, near_<shape>: the
 // signed distance of a point and the normal there, in its own frame; WEFT_OBSTACLE_KERNELS makes
-// its two kernels of it.
+// its kernel of it.
 //
 // In a swept substep a vertex or the obstacle may move so far that the vertex is past the obstacle,
 // or nearer to its other side. Then the vertex' way counts, taken as straight in the obstacle's
@@ -95,79 +95,95 @@ WEFT_INLINE real part_held(real3 slid, real most) {
     return smaller(most / divisor(length3(slid)), splat(1.0f));
 }
 
-/// push_out_of_<shape> moves vertices out of one obstacle; rub_on_<shape> does it with friction:
-/// Coulomb's on positions (Macklin et al. 2014, section 6.1). It takes back what a vertex has slid,
-/// by friction * depth at the most, of all pushes of the substep up to this one. What those before
-/// have left of that is the vertex' grip. Behind the last of them, when its body has moved as a
-/// whole, that holds what is pushed no more, too; less friction * way where it has been lifted off.
+/// Who is told of a push by obstacles besides the vertex.
+#define WEFT_PUSH_ALONE 0  ///< nobody: xpbd where no body is moved as a whole
+#define WEFT_PUSH_LEADS 1  ///< x~, which is led along, and the grip
+#define WEFT_PUSH_LAST 2   ///< behind the step of bodies as wholes: the grip
+
+typedef struct {
+    real3 place;  ///< of the vertex [m]
+    real4 target;
+} pushed_vertex;
+
+/// Moves a vertex out of an obstacle, with Coulomb's friction on positions (Macklin et al. 2014,
+/// section 6.1). It takes back what the vertex has slid, by friction * depth at the most, of all
+/// pushes of the substep up to this one. What those before have left of that is the vertex' grip.
+/// Behind the last of them, when its body has moved as a whole, that holds what is pushed no more,
+/// too; less friction * way where it has been lifted off.
+///
+/// x~ is led along: the inertia that pulls a vertex towards it would pull it into the obstacle
+/// again in every iteration, and be rubbed every time.
+/// near      of x, the normal in the world
+/// previous  the vertex at the substep's start [m]
+/// target    xyz: x~ [m], w: the grip [m]
+WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearness near, real4 x,
+                                      real3 previous, real4 target, int told) {
+    const real zero = splat(0.0f);
+    const real depth = push_depth(obstacle, near.distance, x.w);
+    pushed_vertex v;
+    v.place = add_scaled(xyz(x), near.normal, depth);
+    real used = zero;
+    if (obstacle[7].y > 0.0f) {
+        const real most = most_grip(obstacle, near.distance, target.w, x.w);
+        const real held = told == WEFT_PUSH_LAST ? most : depth;
+        const real3 slid = slid_along(obstacle, v.place, previous, near.normal);
+        const real part = held > zero ? part_held(slid, most) : zero;
+        v.place.x = held > zero ? v.place.x - slid.x * part : v.place.x;
+        v.place.y = held > zero ? v.place.y - slid.y * part : v.place.y;
+        v.place.z = held > zero ? v.place.z - slid.z * part : v.place.z;
+        used = part * length3(slid);
+    }
+    const real3 way = subtract(v.place, xyz(x));
+    const real3 lead = told == WEFT_PUSH_LAST ? scale(way, zero) : way;
+    const real left = grip_left(target.w, depth * splat(obstacle[7].y), used);
+    v.target = with_w(add(xyz(target), lead), grip_of_pushed(left, depth));
+    return v;
+}
+
+/// push_out_of_<shape> moves vertices out of one obstacle.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]; read and written
 /// previous    [vertices] xyz at the substep's start [m]
-/// grips       [vertices] w: the grip [m]; read and written where has_grips is 1
-/// is_last     1 behind the step of bodies as wholes
+/// targets     [vertices] xyz: x~ [m], w: the grip [m]; read and written unless WEFT_PUSH_ALONE
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
+/// told        WEFT_PUSH_...
 /// obstacle    which one
-#define WEFT_OBSTACLE_KERNELS(shape)                                                               \
-    /* Seen from the plane of the first contact on the way from `start` to `end`. */               \
-    WEFT_INLINE nearness met_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 end) {        \
-        const real3 way = subtract(end, start);                                                    \
-        real part = splat(0.0f);                                                                   \
-        nearness near = near_##shape(start, o[6]);                                                 \
-        for (int k = 0; k < WEFT_SWEEP_STEPS; ++k) {                                               \
-            part = advance_to_contact(near, way, part, o[7].x);                                    \
-            near = near_##shape(add_scaled(start, way, part), o[6]);                               \
-        }                                                                                          \
-        near.distance = near.distance + (splat(1.0f) - part) * dot3(near.normal, way);             \
-        return near;                                                                               \
-    }                                                                                              \
-                                                                                                   \
-    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                                \
-                WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* obstacles,           \
-                int obstacle_count, int obstacle, int substep) {                                   \
-        WEFT_GLOBAL const float4* o =                                                              \
-            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
-        const real4 x = load4(positions, i);                                                       \
-        const real3 end = apply(o, xyz(x));                                                        \
-        nearness near;                                                                             \
-        if (o[7].z > 0.0f)                                                                         \
-            near = met_##shape(o, local_at_start(o, xyz(load4(previous, i))), end);                \
-        else                                                                                       \
-            near = near_##shape(end, o[6]);                                                        \
-        const real depth = push_depth(o, near.distance, x.w);                                      \
-        store4(positions, i, with_w(add_scaled(xyz(x), apply_back(o, near.normal), depth), x.w));  \
-    }                                                                                              \
-                                                                                                   \
-    WEFT_KERNEL(rub_on_##shape, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous, \
-                WEFT_GLOBAL float4* grips, WEFT_GLOBAL const float4* obstacles, int has_grips,     \
-                int is_last, int obstacle_count, int obstacle, int substep) {                      \
-        WEFT_GLOBAL const float4* o =                                                              \
-            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);                \
-        const real4 x = load4(positions, i);                                                       \
-        const real3 end = apply(o, xyz(x));                                                        \
-        nearness near;                                                                             \
-        if (o[7].z > 0.0f)                                                                         \
-            near = met_##shape(o, local_at_start(o, xyz(load4(previous, i))), end);                \
-        else                                                                                       \
-            near = near_##shape(end, o[6]);                                                        \
-        const real depth = push_depth(o, near.distance, x.w);                                      \
-        const real3 normal = apply_back(o, near.normal);                                           \
-        real3 place = add_scaled(xyz(x), normal, depth);                                           \
-        if (is_last || any_item(depth > splat(0.0f))) {                                            \
-            real4 grip = {splat(0.0f), splat(0.0f), splat(0.0f), splat(0.0f)};                     \
-            if (has_grips) grip = load4(grips, i);                                                 \
-            const real most = most_grip(o, near.distance, grip.w, x.w);                            \
-            const real held = is_last ? most : depth;                                              \
-            const real3 slid = slid_along(o, place, xyz(load4(previous, i)), normal);              \
-            const real part = held > splat(0.0f) ? part_held(slid, most) : splat(0.0f);            \
-            place.x = held > splat(0.0f) ? place.x - slid.x * part : place.x;                      \
-            place.y = held > splat(0.0f) ? place.y - slid.y * part : place.y;                      \
-            place.z = held > splat(0.0f) ? place.z - slid.z * part : place.z;                      \
-            if (has_grips) {                                                                       \
-                const real gain = depth * splat(o[7].y);                                           \
-                const real used = part * length3(slid);                                            \
-                store4(grips, i, with_w(xyz(grip), grip_left(grip.w, gain, used)));                \
-            }                                                                                      \
-        }                                                                                          \
-        store4(positions, i, with_w(place, x.w));                                                  \
+#define WEFT_OBSTACLE_KERNELS(shape)                                                             \
+    /* Seen from the plane of the first contact on the way from `start` to `end`. */             \
+    WEFT_INLINE nearness met_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 end) {      \
+        const real3 way = subtract(end, start);                                                  \
+        real part = splat(0.0f);                                                                 \
+        nearness near = near_##shape(start, o[6]);                                               \
+        for (int k = 0; k < WEFT_SWEEP_STEPS; ++k) {                                             \
+            part = advance_to_contact(near, way, part, o[7].x);                                  \
+            near = near_##shape(add_scaled(start, way, part), o[6]);                             \
+        }                                                                                        \
+        near.distance = near.distance + (splat(1.0f) - part) * dot3(near.normal, way);           \
+        return near;                                                                             \
+    }                                                                                            \
+                                                                                                 \
+    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                              \
+                WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* targets,                 \
+                WEFT_GLOBAL const float4* obstacles, int told, int obstacle_count, int obstacle, \
+                int substep) {                                                                   \
+        WEFT_GLOBAL const float4* o =                                                            \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);              \
+        const real4 x = load4(positions, i);                                                     \
+        const real3 start = xyz(load4(previous, i));                                             \
+        const real3 end = apply(o, xyz(x));                                                      \
+        nearness near;                                                                           \
+        if (o[7].z > 0.0f)                                                                       \
+            near = met_##shape(o, local_at_start(o, start), end);                                \
+        else                                                                                     \
+            near = near_##shape(end, o[6]);                                                      \
+        near.normal = apply_back(o, near.normal);                                                \
+        const real depth = push_depth(o, near.distance, x.w);                                    \
+        if (told == WEFT_PUSH_LAST || any_item(depth > splat(0.0f))) {                           \
+            real4 target = with_w(start, splat(0.0f));                                           \
+            if (told != WEFT_PUSH_ALONE) target = load4(targets, i);                             \
+            const pushed_vertex v = push_vertex(o, near, x, start, target, told);                \
+            store4(positions, i, with_w(v.place, x.w));                                          \
+            if (told != WEFT_PUSH_ALONE) store4(targets, i, v.target);                           \
+        }                                                                                        \
     }
 
 WEFT_KERNELS_END

@@ -11,36 +11,21 @@ namespace weft {
 
 namespace {
 
-struct ContactArguments {
-    const Segments& vertices;
-    Buffer<float4>& positions;
-    Buffer<float4>& previous;
-    Grips grips;
-    Buffer<float4>& placements;
-    int obstacle_count;
-    int obstacle;
-    bool friction;
-};
-
-template <class Push, class Rub>
-Launch contact(Push push, Rub rub, const ContactArguments& a) {
-    if (a.friction) {
-        return launch(rub, a.vertices, a.positions, a.previous,
-                      a.grips.of ? *a.grips.of : a.positions, a.placements, a.grips.of ? 1 : 0,
-                      a.grips.are_last ? 1 : 0, a.obstacle_count, a.obstacle, kInstance);
-    }
-    return launch(push, a.vertices, a.positions, a.previous, a.placements, a.obstacle_count,
-                  a.obstacle, kInstance);
-}
-
-/// The kernels of each shape of obstacle_shapes.h.
-Launch contact_with(const std::string& shape, const ContactArguments& a) {
+/// Calls launch_shape with the kernel of the obstacle's shape (obstacle_shapes.h).
+template <class LaunchShape>
+Launch launch_for(const Obstacle& obstacle, LaunchShape launch_shape) {
     using namespace kernels;
 #define WEFT_TRY_SHAPE(name) \
-    if (shape == #name) return contact(push_out_of_##name, rub_on_##name, a);
+    if (obstacle.shape == #name) return launch_shape(push_out_of_##name);
     WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
 #undef WEFT_TRY_SHAPE
-    throw std::logic_error("obstacle shape '" + shape + "' has no kernel");
+    throw std::logic_error("obstacle shape '" + obstacle.shape + "' has no kernel");
+}
+
+int told_of(const PushedTargets& pushed) {
+    if (pushed.targets == nullptr) return WEFT_PUSH_ALONE;
+    if (pushed.are_last) return WEFT_PUSH_LAST;
+    return WEFT_PUSH_LEADS;
 }
 
 void write_rows(float4* rows, const Mat3& rotation, Vec3 translation) {
@@ -144,13 +129,15 @@ double distance_to_local(const Obstacle& obstacle, Vec3 local) {
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                             Buffer<float4>& positions, Buffer<float4>& previous, Grips grips) {
-    const int count = static_cast<int>(obstacles_.size());
-    for (int i = 0; i < count; ++i) {
-        const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(i)];
-        launches.push_back(
-            contact_with(obstacle.shape, {vertices, positions, previous, grips, placements_, count,
-                                          i, obstacle.friction.has_value()}));
+                             Buffer<float4>& positions, Buffer<float4>& previous,
+                             const PushedTargets& pushed) {
+    Buffer<float4>& targets = pushed.targets ? *pushed.targets : positions;
+    for (int i = 0; i < count(); ++i) {
+        const auto push_out = [&](auto kernel) {
+            return launch(kernel, vertices, positions, previous, targets, placements_,
+                          told_of(pushed), count(), i, kInstance);
+        };
+        launches.push_back(launch_for(obstacles_[static_cast<std::size_t>(i)], push_out));
     }
 }
 

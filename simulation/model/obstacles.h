@@ -7,10 +7,10 @@
 
 namespace weft {
 
-/// What friction has left to hold with in a substep (kernels/obstacles/grip.h).
-struct Grips {
-    Buffer<float4>* of = nullptr;  ///< [vertices] null: it does not count in the pushes that follow
-    bool are_last = false;         ///< they hold what is pushed no more, too
+/// What obstacles push besides positions (kernels/obstacles/contact.h).
+struct PushedTargets {
+    Buffer<float4>* targets = nullptr;  ///< [vertices] x~ and grip; null: they are not told
+    bool are_last = false;              ///< behind the step of bodies as wholes; x~ stays
 };
 
 /// The obstacles of a scene on the devices: where each is in every substep of a frame.
@@ -31,9 +31,12 @@ public:
     /// One launch per obstacle that pushes all vertices out of it.
     /// vertices: one segment per strip
     void add_launches(std::vector<Launch>& launches, const Segments& vertices,
-                      Buffer<float4>& positions, Buffer<float4>& previous, Grips grips);
+                      Buffer<float4>& positions, Buffer<float4>& previous,
+                      const PushedTargets& pushed);
 
 private:
+    int count() const { return static_cast<int>(obstacles_.size()); }
+
     std::vector<Obstacle> obstacles_;
     int substeps_;
     Buffer<float4> placements_;  ///< [substep][obstacle][WEFT_OBSTACLE_ROWS]

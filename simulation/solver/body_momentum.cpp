@@ -21,17 +21,25 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     } else if (free_bodies_) {
         lone_ = std::make_unique<LoneBodies>(*free_bodies_);
     }
-    if (model.obstacles || touching_)
-        pushed_ = std::make_unique<Buffer<float4>>("pushed", targets.count());
+    if (free_bodies_ && (model.obstacles || touching_))
+        moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
+    if (free_bodies_ && model.obstacles)
+        starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
+}
+
+void BodyMomentum::keep_starts(std::vector<Launch>& launches) {
+    if (!starts_) return;
+    launches.push_back(launch(kernels::copy_positions, model_.vertices(), targets_, *starts_));
+}
+
+void BodyMomentum::add_start_accesses(Step::Adding& task, int first, int last) {
+    if (starts_) task.updates(*starts_, first, last);
 }
 
 void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
     if (!model_.obstacles) return;
-    launches.push_back(launch(kernels::copy_positions, model_.vertices(), positions, *pushed_));
     model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous,
                                    {&targets_, false});
-    launches.push_back(
-        launch(kernels::push_targets, model_.vertices(), positions, *pushed_, targets_));
 }
 
 void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last) {
@@ -41,11 +49,10 @@ void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last
 
 void BodyMomentum::look_at(Buffer<float4>& positions) {
     positions_ = &positions;
-    Buffer<float4>* const pushes = model_.obstacles ? pushed_.get() : nullptr;
     if (touching_)
-        sums_.launches = touching_->sum(positions, targets_, pushes, sums_.kind);
+        sums_.launches = touching_->sum(positions, targets_, starts_.get(), sums_.kind);
     else if (lone_)
-        sums_.launches = lone_->sums().sum(model_, positions, targets_, pushes);
+        sums_.launches = lone_->sums().sum(model_, positions, targets_, starts_.get());
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
@@ -69,16 +76,16 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
         launches.push_back(touching_->move(model_, targets_));
     else
         std::ranges::move(lone_->move(model_, targets_), std::back_inserter(launches));
-    if (!pushed_) return;
+    if (!moved_) return;
     launches.push_back(
-        launch(kernels::copy_positions, model_.vertices(), *model_.positions, *pushed_));
+        launch(kernels::copy_positions, model_.vertices(), *model_.positions, *moved_));
     if (model_.obstacles) {
         model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
                                        *model_.previous, {&targets_, true});
     }
     if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,
-                              *pushed_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
+                              *moved_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
 }
 
 void BodyMomentum::add_move_accesses(Step::Adding& task, int first, int last) {

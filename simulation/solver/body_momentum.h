@@ -15,7 +15,7 @@ namespace weft {
 /// What keeps the momentum of bodies that nothing holds, however far iterations get. Behind the
 /// last one they are moved as wholes: by what is missing (kernels/bodies/free_bodies.h), and in
 /// scenes with contact as far as what touches them lets them (kernels/contact/bodies.h). Pushes by
-/// obstacles are no loss: they move x~ along, which is to be told behind each iteration.
+/// obstacles are no loss: they move x~ along.
 class BodyMomentum {
 public:
     /// contact: null: none. multipliers: [entries of its rows] by which contacts rub; null: they do
@@ -25,6 +25,11 @@ public:
                  Buffer<float4>& targets, int first_kind);
 
     bool has_bodies() const { return free_bodies_ != nullptr; }
+
+    /// Behind what makes x~ and `previous` at a substep's begin: keeps x~ for what obstacles push.
+    void keep_starts(std::vector<Launch>& launches);
+    /// What that needs of vertices [first, last).
+    void add_start_accesses(Step::Adding& task, int first, int last);
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
@@ -53,7 +58,8 @@ private:
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
     std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or contacts
-    std::unique_ptr<Buffer<float4>> pushed_;    ///< null: nothing pushes
+    std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
+    std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: none of bodies
     TaskBody sums_;                             ///< empty: no free bodies
 };
 

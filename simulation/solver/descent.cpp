@@ -44,6 +44,7 @@ std::vector<Launch> DescentSubstep::begin() {
         launch(kernels::begin_descent, model_.vertices(), *model_.positions, *model_.previous,
                targets_, *model_.velocities, *model_.gravity, static_cast<float>(model_.h),
                static_cast<float>(model_.h * model_.h), kInstance)};
+    momentum_.keep_starts(launches);
     if (model_.moving_pins) model_.moving_pins->add_launches(launches, *model_.positions);
     if (contact_) contact_->add_begin(launches, targets_);
     return launches;
@@ -80,6 +81,7 @@ Step::Adding DescentSubstep::add_begin(Step& step, const TaskBody& body, const R
         .updates(*model_.positions, first, last)
         .updates(*model_.previous, first, last)
         .updates(targets_, first, last);
+    momentum_.add_start_accesses(task, first, last);
     if (contact_) contact_->add_begin_accesses(task, first, last);
     return task;
 }

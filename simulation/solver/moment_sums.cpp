@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kernels/bodies/moments.h"
-#include "kernels/descent/substep.h"
 
 namespace weft {
 
@@ -30,31 +29,25 @@ MomentSums::MomentSums(FreeBodies& bodies)
 }
 
 std::vector<Launch> MomentSums::sum(Model& model, Buffer<float4>& positions,
-                                    Buffer<float4>& targets, Buffer<float4>* pushes) {
-    std::vector<Launch> launches;
-    if (pushes != nullptr) {
-        pushed_ = &model;
-        launches.push_back(launch(kernels::pushes_of_targets, model.vertices(), targets,
-                                  *model.previous, *model.velocities, *model.gravity, *pushes,
-                                  static_cast<float>(model.h), kInstance));
-    }
+                                    Buffer<float4>& targets, Buffer<float4>* starts) {
+    model_ = &model;
+    starts_ = starts;
     const BodyColumns columns = bodies_.columns();
-    launches.push_back(launch(kernels::add_moments, columns.by_strip, positions, targets,
-                              pushes ? *model.previous : targets, pushes ? *pushes : targets,
-                              columns.members, columns.shares, columns.rows, origins_, partials_,
-                              pushes ? 1 : 0, columns.count));
-    launches.push_back(bodies_.add_columns(partials_, sums_, {kParts, 1, kParts}));
-    return launches;
+    return {
+        launch(kernels::add_moments, columns.by_strip, positions, targets,
+               starts ? *model.previous : targets, starts ? *starts : targets, columns.members,
+               columns.shares, columns.rows, origins_, partials_, starts ? 1 : 0, columns.count),
+        bodies_.add_columns(partials_, sums_, {kParts, 1, kParts})};
 }
 
 void MomentSums::add_sum_accesses(Step::Adding& task, const Region& region) {
     const auto [first, end] = bodies_.runs_in(region.begin, region.end);
     task.updates(sums_, kParts * first, kParts * end);
-    if (pushed_ == nullptr) return;
-    const int first_vertex = pushed_->vertices().item(region.begin);
-    const int end_vertex = pushed_->vertices().item(region.end);
-    task.reads(*pushed_->previous, first_vertex, end_vertex)
-        .reads(*pushed_->velocities, first_vertex, end_vertex);
+    if (starts_ == nullptr) return;
+    const int first_vertex = model_->vertices().item(region.begin);
+    const int end_vertex = model_->vertices().item(region.end);
+    task.reads(*model_->previous, first_vertex, end_vertex)
+        .reads(*starts_, first_vertex, end_vertex);
 }
 
 void MomentSums::add_origin_reads(Step::Adding& task, const Region& region,

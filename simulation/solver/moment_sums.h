@@ -16,9 +16,9 @@ public:
     /// bodies must outlive this.
     explicit MomentSums(FreeBodies& bodies);
 
-    /// pushes: [vertices] for how far obstacles have moved targets; null: there are none.
+    /// starts: [vertices] targets before obstacles have pushed them; null: there are none.
     std::vector<Launch> sum(Model& model, Buffer<float4>& positions, Buffer<float4>& targets,
-                            Buffer<float4>* pushes);
+                            Buffer<float4>* starts);
     /// What that needs of a region, besides its own positions and targets,
     void add_sum_accesses(Step::Adding& task, const Region& region);
     /// and of others: the vertex that a body is seen from may lie there.
@@ -31,7 +31,8 @@ public:
 
 private:
     FreeBodies& bodies_;
-    Model* pushed_ = nullptr;  ///< whose vertices obstacles push; null: none do
+    Model* model_ = nullptr;            ///< behind sum(), as are
+    Buffer<float4>* starts_ = nullptr;  ///< those; null: no obstacles
     Buffer<int> origins_;
     Buffer<float4> partials_;  ///< [8 * columns]
     Buffer<float4> sums_;

@@ -113,9 +113,9 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 }
 
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                                        Buffer<float4>* pushes, int kind) {
+                                        Buffer<float4>* starts, int kind) {
     targets_ = &targets;
-    collect_.launches = moments_.sums().sum(model_, positions, targets, pushes);
+    collect_.launches = moments_.sums().sum(model_, positions, targets, starts);
     if (solids_)
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
                           std::back_inserter(collect_.launches));

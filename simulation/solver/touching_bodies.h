@@ -22,7 +22,7 @@ public:
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                            Buffer<float4>* pushes, int kind);
+                            Buffer<float4>* starts, int kind);
     /// All rounds: sums, each followed by steps. body: with what sum() gave
     void add_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions,
                     Buffer<float4>& positions, int iteration);

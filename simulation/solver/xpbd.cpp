@@ -186,6 +186,7 @@ private:
         if (momentum_) {
             predict_.launches.push_back(
                 launch(kernels::start_targets, model_.vertices(), *model_.positions, *targets_));
+            momentum_->keep_starts(predict_.launches);
         }
         if (contact_) contact_->add_begin(predict_.launches, *model_.positions);
     }
@@ -237,7 +238,10 @@ private:
         task.reads(*model_.velocities, begin, end)
             .updates(*model_.positions, begin, end)
             .updates(*model_.previous, begin, end);
-        if (momentum_) task.updates(*targets_, begin, end);
+        if (momentum_) {
+            task.updates(*targets_, begin, end);
+            momentum_->add_start_accesses(task, begin, end);
+        }
         if (contact_) contact_->add_begin_accesses(task, begin, end);
     }
 

@@ -84,15 +84,15 @@ def test_bare_scene_has_nothing_that_it_does_not_name(inspect):
         "solve_membrane_stencils"]
     assert "attachments" in left_out
     assert left_out["moving pins"]["kernels"] == ["move_pins"]
-    assert "rub_on_sphere" in left_out["obstacles"]["kernels"]
+    assert "push_out_of_sphere" in left_out["obstacles"]["kernels"]
 
 
 def test_everything_named_is_there(inspect):
     found = inspect(EVERYTHING)
     kernels = names(found["kernels"])
-    assert {"project_hinges", "move_pins", "update_damped_velocities", "rub_on_sphere",
+    assert {"project_hinges", "move_pins", "update_damped_velocities", "push_out_of_sphere",
             "push_out_of_plane"} <= set(kernels)
-    assert not {"push_out_of_sphere", "rub_on_plane", "update_velocities"} & set(kernels)
+    assert not {"push_out_of_box", "update_velocities"} & set(kernels)
     assert {"obstacles", "pins.motions", "hinges.weights"} <= set(names(found["buffers"]))
     assert not {"bending", "obstacles", "pins", "damping"} & set(names(found["left_out"], "what"))
 
@@ -176,7 +176,7 @@ def test_sizes_follow_the_scene(inspect):
 def test_text_names_all_parts():
     result = weft("inspect", SCENES / "skirt.toml")
     assert result.returncode == 0 and result.stderr == ""
-    for part in ["tasks", "kernels", "buffers", "datasets", "left out", "rub_on_capsule"]:
+    for part in ["tasks", "kernels", "buffers", "datasets", "left out", "push_out_of_capsule"]:
         assert part in result.stdout
 
 

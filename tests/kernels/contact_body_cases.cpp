@@ -75,11 +75,11 @@ void moments_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& targets = add_points(c, "targets", c.items);
     auto& previous = add_points(c, "previous", c.items);
-    auto& pushes = add_points(c, "pushes", c.items);
+    auto& starts = add_points(c, "starts", c.items);
     Columns columns(c);
     auto& origins = add_indices(c, "origins", c.items, c.items);
     auto& partials = c.add<float4>("partials", WEFT_MOMENT_PARTS * c.items);
-    c.launch = launch(kernels::add_moments, c.segments, positions, targets, previous, pushes,
+    c.launch = launch(kernels::add_moments, c.segments, positions, targets, previous, starts,
                       columns.members, columns.shares, columns.rows, origins, partials,
                       c.random.integer(0, 1), c.items);
 }

@@ -227,28 +227,6 @@ void start_case(KernelCase& c) {
     c.launch = launch(kernels::start_targets, c.segments, positions, targets);
 }
 
-void pushes_case(KernelCase& c) {
-    auto& previous = add_positions(c);
-    auto& targets = c.add<float4>("targets", 2 * c.items);
-    auto& velocities = c.add<float4>("velocities", 2 * c.items);
-    auto& pushes = c.add<float4>("pushes", 2 * c.items);
-    for (float4& x : targets.span()) x = c.random.point(1.0f);
-    for (float4& v : velocities.span()) v = c.random.point(3.0f);
-    auto& gravity = c.add<float4>("gravity", 2);
-    if (c.flavour == Flavour::kRandom) gravity[1] = {1.0f, -9.81f, 0.5f, 0.0f};
-    c.launch = launch(kernels::pushes_of_targets, c.segments, targets, previous, velocities,
-                      gravity, pushes, 0.01f, kInstance);
-}
-
-void push_case(KernelCase& c) {
-    auto& positions = add_positions(c);
-    auto& pushed = c.add<float4>("pushed", 2 * c.items);
-    auto& targets = c.add<float4>("targets", 2 * c.items);
-    for (float4& x : pushed.span()) x = c.random.point(1.0f);
-    for (float4& x : targets.span()) x = c.random.point(1.0f);
-    c.launch = launch(kernels::push_targets, c.segments, positions, pushed, targets);
-}
-
 const bool added =
     add_case("gather_springs", springs_case) && add_case("gather_bending", bending_case) &&
     add_case("gather_spring_gradients", spring_forces_case) &&
@@ -262,8 +240,7 @@ const bool added =
     add_case("solve_membrane_stencils", membrane_stencils_case) &&
     add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&
     add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
-    add_case("copy_positions", copy_case) && add_case("start_targets", start_case) &&
-    add_case("push_targets", push_case) && add_case("pushes_of_targets", pushes_case);
+    add_case("copy_positions", copy_case) && add_case("start_targets", start_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -33,26 +33,28 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
     }
 }
 
-void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
-    auto& positions = c.add<float4>("positions", c.items);
-    auto& previous = c.add<float4>("previous", c.items);
-    auto& obstacles = c.add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
-    place(c, obstacles);
+/// Points near shapes, and where several of their parts are as near.
+void scatter(KernelCase& c, Buffer<float4>& points) {
     const float special[] = {0.0f, 0.25f, -0.25f,
                              0.5f, -0.5f, 1.0f};  // centres, faces, edges, corners
-    for (std::size_t v = 0; v < positions.count(); ++v) {
-        positions[v] = c.random.point(0.8f);
-        if (c.flavour == Flavour::kDegenerate) {
-            const auto pick = [&] { return special[c.random.integer(0, 5)]; };
-            positions[v] = {pick(), pick(), pick(), 0.0f};
-        }
-        const float moved = c.flavour == Flavour::kRandom ? 0.9f : 0.0f;
-        const float4 way = c.random.point(moved);
-        const float4& x = positions[v];
-        previous[v] = {x.x + way.x, x.y + way.y, x.z + way.z, 0.0f};
-        positions[v].w = c.random.integer(0, 5) == 0 ? 0.0f : 1.0f;
+    for (float4& x : points.span()) {
+        x = c.random.point(0.8f);
+        if (c.flavour != Flavour::kDegenerate) continue;
+        const auto pick = [&] { return special[c.random.integer(0, 5)]; };
+        x = {pick(), pick(), pick(), 0.0f};
     }
+}
 
+/// x~, and grips of what has been pushed; others have none.
+Buffer<float4>& add_targets(KernelCase& c) {
+    auto& targets = c.add<float4>("targets", c.items);
+    scatter(c, targets);
+    for (float4& target : targets.span()) target.w = std::max(c.random.real(-0.1f, 0.1f), 0.0f);
+    return targets;
+}
+
+/// Behind the arguments of its own: how many obstacles there are, which one, and the substep.
+void finish(KernelCase& c, const kernels::KernelInfo& kernel) {
     Argument substep;
     substep.run_value = RunValue::kOfInstance;
     Argument count;
@@ -61,29 +63,36 @@ void obstacle_case(KernelCase& c, const kernels::KernelInfo& kernel) {
     which.integer = 1;
     c.launch.kernel = &kernel;
     c.launch.segments = c.segments;
-    c.launch.arguments = {{&positions}, {&previous}};
-    if (kernel.name.starts_with("rub_on_")) {
-        auto& grips = c.add<float4>("grips", c.items);
-        for (float4& grip : grips.span()) grip = c.random.point(0.1f);
-        for (float4& grip : grips.span()) grip.w = std::max(c.random.real(-0.1f, 0.1f), 0.0f);
-        Argument has_grips, is_last;
-        has_grips.integer = c.random.integer(0, 1);
-        is_last.integer = c.random.integer(0, 1);
-        c.launch.arguments.insert(c.launch.arguments.end(),
-                                  {{&grips}, {&obstacles}, has_grips, is_last});
-    } else {
-        c.launch.arguments.push_back({&obstacles});
-    }
     c.launch.arguments.insert(c.launch.arguments.end(), {count, which, substep});
+}
+
+void push_case(KernelCase& c, Buffer<float4>& obstacles) {
+    auto& positions = c.add<float4>("positions", c.items);
+    auto& previous = c.add<float4>("previous", c.items);
+    auto& targets = add_targets(c);
+    scatter(c, positions);
+    for (std::size_t v = 0; v < positions.count(); ++v) {
+        const float moved = c.flavour == Flavour::kRandom ? 0.9f : 0.0f;
+        const float4 way = c.random.point(moved);
+        const float4& x = positions[v];
+        previous[v] = {x.x + way.x, x.y + way.y, x.z + way.z, 0.0f};
+        positions[v].w = c.random.integer(0, 5) == 0 ? 0.0f : 1.0f;
+    }
+    Argument told;
+    told.integer = c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST);
+    c.launch.arguments = {{&positions}, {&previous}, {&targets}, {&obstacles}, told};
 }
 
 }  // namespace
 
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed) {
-    if (!kernel.starts_with("push_out_of_") && !kernel.starts_with("rub_on_")) return nullptr;
+    if (!kernel.starts_with("push_out_of_")) return nullptr;
     auto made = std::make_unique<KernelCase>(items, flavour, seed);
-    obstacle_case(*made, kernels::kernel_info(std::string(kernel)));
+    auto& obstacles = made->add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
+    place(*made, obstacles);
+    push_case(*made, obstacles);
+    finish(*made, kernels::kernel_info(std::string(kernel)));
     return made;
 }
 

@@ -24,7 +24,7 @@ Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
 struct Contact {
     Buffer<float4> positions{"positions", 1};
     Buffer<float4> previous{"previous", 1};
-    Buffer<float4> grips{"grips", 1};
+    Buffer<float4> targets{"targets", 1};
     Buffer<float4> rows{"obstacles", WEFT_OBSTACLE_ROWS};
 
     Contact(Vec3 point, float4 dimensions, float inverse_mass = 1.0f) {
@@ -41,17 +41,14 @@ struct Contact {
     }
     template <class Kernel>
     Vec3 push(Kernel kernel) {
-        return run(launch(kernel, Segments{}, positions, previous, rows, 1, 0, 0));
+        rows[7].y = 0.0f;
+        return rub(kernel);
     }
     template <class Kernel>
-    Vec3 rub(Kernel kernel, bool has_grips = false, bool is_last = false) {
-        return run(launch(kernel, Segments{}, positions, previous, grips, rows, has_grips ? 1 : 0,
-                          is_last ? 1 : 0, 1, 0, 0));
-    }
-
-private:
-    Vec3 run(const Launch& launch) {
-        run_on_host(launch, launch.kernel->scalar, 0, 1);
+    Vec3 rub(Kernel kernel, int told = WEFT_PUSH_ALONE) {
+        const Launch push =
+            launch(kernel, Segments{}, positions, previous, targets, rows, told, 1, 0, 0);
+        run_on_host(push, push.kernel->scalar, 0, 1);
         return vec(positions[0]);
     }
 };
@@ -114,10 +111,7 @@ TEST(Obstacles, FarFromTheOriginEverythingIsOutsideToTheBit) {
     EXPECT_EQ(pushed(kernels::push_out_of_capsule, far, {0.5f, 1, 0, 0}), same);
     EXPECT_EQ(pushed(kernels::push_out_of_box, far, {1, 1, 1, 0}), same);
     EXPECT_EQ(pushed(kernels::push_out_of_plane, far, {}), same);
-    EXPECT_EQ(Contact(far, {0.5f, 0, 0, 0}).rub(kernels::rub_on_sphere), same);
-    EXPECT_EQ(Contact(far, {0.5f, 1, 0, 0}).rub(kernels::rub_on_capsule), same);
-    EXPECT_EQ(Contact(far, {1, 1, 1, 0}).rub(kernels::rub_on_box), same);
-    EXPECT_EQ(Contact(far, {}).rub(kernels::rub_on_plane), same);
+    EXPECT_EQ(Contact(far, {}).rub(kernels::push_out_of_plane), same);
 }
 
 TEST(Obstacles, HeldVerticesNeverMove) {
@@ -128,7 +122,7 @@ TEST(Obstacles, HeldVerticesNeverMove) {
     EXPECT_EQ(pushed(kernels::push_out_of_plane, inside, {}, 0.0f), inside);
     Contact rubbed(inside, {}, 0.0f);
     rubbed.previous[0].x = 5.0f;
-    EXPECT_EQ(rubbed.rub(kernels::rub_on_plane), inside);
+    EXPECT_EQ(rubbed.rub(kernels::push_out_of_plane), inside);
 }
 
 TEST(Obstacles, FrictionHoldsUpToItsShareOfTheDepthAndNoFurther) {
@@ -137,7 +131,7 @@ TEST(Obstacles, FrictionHoldsUpToItsShareOfTheDepthAndNoFurther) {
         Contact contact({way, -0.225, 0}, {});
         contact.previous[0].x = 0.0f;
         const double slid = std::max(0.0, way - 0.35 * static_cast<double>(kFriction));
-        expect_at(contact.rub(kernels::rub_on_plane), {slid, kThickness, 0});
+        expect_at(contact.rub(kernels::push_out_of_plane), {slid, kThickness, 0});
     }
 }
 
@@ -146,36 +140,48 @@ TEST(Obstacles, WhatFrictionHasLeftHoldsWhatIsPushedNoMore) {
     constexpr double kGrip = 0.35 * static_cast<double>(kFriction);
     Contact contact({0.05, -0.225, 0}, {});
     contact.previous[0].x = 0.0f;
-    expect_at(contact.rub(kernels::rub_on_plane, true), {0.0, kThickness, 0});
-    EXPECT_NEAR(contact.grips[0].w, kGrip - 0.05, 1e-6);
+    expect_at(contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LEADS), {0.0, kThickness, 0});
+    EXPECT_NEAR(contact.targets[0].w, kGrip - 0.05, 1e-6);
     contact.positions[0].x = 0.1f;
-    expect_at(contact.rub(kernels::rub_on_plane, true), {0.1, kThickness, 0});
-    expect_at(contact.rub(kernels::rub_on_plane, true, true), {0.0, kThickness, 0});
-    EXPECT_NEAR(contact.grips[0].w, kGrip - 0.15, 1e-6);
+    expect_at(contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LEADS), {0.1, kThickness, 0});
+    expect_at(contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LAST), {0.0, kThickness, 0});
+    EXPECT_NEAR(contact.targets[0].w, kGrip - 0.15, 1e-6);
     contact.positions[0].x = 0.1f;
-    expect_at(contact.rub(kernels::rub_on_plane, true, true), {0.25 - kGrip, kThickness, 0});
-    EXPECT_NEAR(contact.grips[0].w, 0.0, 1e-6);
-    EXPECT_GT(contact.grips[0].w, 0.0f) << "it has been pushed";
+    expect_at(contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LAST),
+              {0.25 - kGrip, kThickness, 0});
+    EXPECT_NEAR(contact.targets[0].w, 0.0, 1e-6);
+    EXPECT_GT(contact.targets[0].w, 0.0f) << "it has been pushed";
 }
 
 TEST(Obstacles, FrictionHoldsNothingThatIsLiftedOff) {
     Contact contact({0.0, kThickness + 0.1f, 0}, {});
     contact.previous[0].x = 0.02f;
-    contact.grips[0].w = 0.1f * kFriction;
-    expect_at(contact.rub(kernels::rub_on_plane, true, true),
+    contact.targets[0].w = 0.1f * kFriction;
+    expect_at(contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LAST),
               {0.0, static_cast<double>(kThickness) + 0.1, 0});
     Contact apart({0.0, kThickness + 0.1f, 0}, {});
-    apart.rub(kernels::rub_on_plane, true, true);
-    EXPECT_EQ(apart.grips[0].w, 0.0f) << "nor has it been pushed";
+    apart.rub(kernels::push_out_of_plane, WEFT_PUSH_LAST);
+    EXPECT_EQ(apart.targets[0].w, 0.0f) << "nor has it been pushed";
+}
+
+TEST(Obstacles, PushesLeadTargetsAlong) {
+    for (const int told : {WEFT_PUSH_ALONE, WEFT_PUSH_LEADS, WEFT_PUSH_LAST}) {
+        Contact contact({0.05, -0.225, 0}, {});
+        contact.previous[0].x = 0.0f;
+        contact.targets[0] = {0.5f, -0.5f, 0.25f, 0.0f};
+        contact.rub(kernels::push_out_of_plane, told);
+        const Vec3 led = told == WEFT_PUSH_LEADS ? Vec3{-0.05, 0.35, 0.0} : Vec3{};
+        expect_at(vec(contact.targets[0]), Vec3{0.5, -0.5, 0.25} + led);
+    }
 }
 
 TEST(Obstacles, MovingObstacleCarriesWhatItHolds) {
     Contact contact({0, -0.225, 0}, {});
     contact.rows[0].w = -0.1f;  // where the plane is now, is 0.1 m along x from where it was
-    expect_at(contact.rub(kernels::rub_on_plane), {0.1, kThickness, 0});
+    expect_at(contact.rub(kernels::push_out_of_plane), {0.1, kThickness, 0});
     Contact fast({0, -0.225, 0}, {});
     fast.rows[0].w = -10.0f;
-    expect_at(fast.rub(kernels::rub_on_plane), {0.175, kThickness, 0});
+    expect_at(fast.rub(kernels::push_out_of_plane), {0.175, kThickness, 0});
 }
 
 TEST(Obstacles, PlacementTurnsAndMovesTheShape) {

@@ -24,7 +24,7 @@ Eigen::Vector3d in_double(real3 v) { return {v.x, v.y, v.z}; }
 struct Cloud {
     static constexpr int kColumns = WEFT_RUN_COLUMNS;
     int count;
-    Buffer<float4> positions, targets, previous, pushes;
+    Buffer<float4> positions, targets, previous, unpushed;
     Buffer<int> members{"members", kColumns}, rows{"rows", 2 * kColumns},
         origins{"origins", kColumns}, first_run{"first_run", 1},
         starts{"starts", WEFT_MOMENT_PARTS}, places{"places", WEFT_MOMENT_PARTS};
@@ -37,7 +37,7 @@ struct Cloud {
           positions("positions", static_cast<std::size_t>(vertices)),
           targets("targets", positions.count()),
           previous("previous", positions.count()),
-          pushes("pushes", positions.count()) {
+          unpushed("unpushed", positions.count()) {
         counts[0] = 1.0f;
         for (int part = 0; part < WEFT_MOMENT_PARTS; ++part) {
             starts[static_cast<std::size_t>(part)] = kColumns * part;
@@ -57,8 +57,8 @@ struct Cloud {
     }
 
     moments weigh() {
-        run(launch(kernels::add_moments, Segments{}, positions, targets, previous, pushes, members,
-                   shares, rows, origins, partials, 1, kColumns),
+        run(launch(kernels::add_moments, Segments{}, positions, targets, previous, unpushed,
+                   members, shares, rows, origins, partials, 1, kColumns),
             kColumns);
         run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
             WEFT_MOMENT_PARTS);
@@ -130,7 +130,8 @@ real3 borne_lag(real3 lag, real3 way) {
     for (std::size_t v = 0; v < cloud.positions.count(); ++v) {
         const float4 x = cloud.positions[v];
         const bool is_pushed = v < 5;
-        cloud.pushes[v] = {0.0f, is_pushed ? 0.04f : 0.0f, 0.0f, 0.0f};
+        const float4 target = cloud.targets[v];
+        cloud.unpushed[v] = {target.x, target.y - (is_pushed ? 0.04f : 0.0f), target.z, 0.0f};
         cloud.previous[v] = is_pushed ? x : float4{x.x - way.x, x.y - way.y, x.z - way.z, x.w};
     }
     return without_throw(lag, cloud.weigh(), make3(0.0f, 0.0f, 0.0f));

@@ -216,11 +216,11 @@ TEST(Xpbd, HasNoBodyLaunchOrBufferForWhatASceneDoesNotName) {
         for (const Launch& launch : body->launches) kernels.insert(launch.kernel->name);
     }
     for (const char* kernel :
-         {"project_hinges", "move_pins", "update_damped_velocities", "rub_on_sphere",
-          "rub_on_plane", "push_out_of_capsule", "push_out_of_box"}) {
+         {"project_hinges", "move_pins", "update_damped_velocities", "push_out_of_sphere",
+          "push_out_of_plane", "push_out_of_capsule", "push_out_of_box"}) {
         EXPECT_TRUE(kernels.contains(kernel)) << kernel;
     }
-    EXPECT_FALSE(kernels.contains("push_out_of_sphere"));
+    EXPECT_FALSE(kernels.contains("copy_positions")) << "no body is free";
 }
 
 }  // namespace
