@@ -142,7 +142,7 @@ void FineRun::add_forces() {
     }
 }
 
-/// As rub_on_<shape> in kernels/obstacles/contact.h, obstacle by obstacle; a push is a velocity.
+/// As push_vertex in kernels/obstacles/contact.h, obstacle by obstacle; a push is a velocity.
 void FineRun::push_out_of_obstacles(std::size_t vertex, Vec3 previous) {
     using namespace kernels;
     const float4* placement = obstacles_->placements().data();

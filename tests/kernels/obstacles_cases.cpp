@@ -29,7 +29,8 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
         }
         rows[6] = {0.5f, 0.25f, 0.5f, 0.0f};
         const bool is_swept = c.flavour != Flavour::kRandom || i % 2 == 1;
-        rows[7] = {0.01f, 0.3f, is_swept ? 1.0f : 0.0f, 0.0f};
+        const float friction = c.random.integer(0, 2) == 0 ? 0.0f : 0.3f;
+        rows[7] = {0.01f, friction, is_swept ? 1.0f : 0.0f, 0.0f};
     }
 }
 

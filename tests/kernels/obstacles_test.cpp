@@ -111,6 +111,9 @@ TEST(Obstacles, FarFromTheOriginEverythingIsOutsideToTheBit) {
     EXPECT_EQ(pushed(kernels::push_out_of_capsule, far, {0.5f, 1, 0, 0}), same);
     EXPECT_EQ(pushed(kernels::push_out_of_box, far, {1, 1, 1, 0}), same);
     EXPECT_EQ(pushed(kernels::push_out_of_plane, far, {}), same);
+    EXPECT_EQ(Contact(far, {0.5f, 0, 0, 0}).rub(kernels::push_out_of_sphere), same);
+    EXPECT_EQ(Contact(far, {0.5f, 1, 0, 0}).rub(kernels::push_out_of_capsule), same);
+    EXPECT_EQ(Contact(far, {1, 1, 1, 0}).rub(kernels::push_out_of_box), same);
     EXPECT_EQ(Contact(far, {}).rub(kernels::push_out_of_plane), same);
 }
 
