@@ -11,15 +11,22 @@
 
 WEFT_KERNELS_BEGIN
 
-/// How a body has to turn that has got to its place. The angle is the smaller the better its step
-/// is solved, and each round leaves of it about its square.
-WEFT_INLINE real3 missing_turn(moments m) {
-    const sym3 inertia = inertia_of(m);
-    real3 turn = no_motion().turn;
+/// How a body has to move that lacks a shift [m] and what its moments say of turns. The angle is
+/// the smaller the better its step is solved, and each round leaves of it about its square.
+WEFT_INLINE body_motion missing_motion(moments m, real3 shift) {
+    const sym6 form = own_form_of(m);
+    const sym6 hold = form_of_holding(m.hold);
+    const real3 lift = scale(lift_of(shift, m), is_held(m.hold));
+    body_motion done = no_motion();
     for (int round = 0; round < 3; ++round) {
-        turn = bounded_turn(add(turn, solve_sym(inertia, lag_of_turn(m, turn))));
+        const body_motion held = multiply_sym6(hold, done);
+        const real3 left = subtract(subtract(subtract(shift, lift), done.shift), held.shift);
+        const real3 turn = subtract(lag_of_turn(m, done.turn), held.turn);
+        done = add_scaled_motion(done, solve_sym6(form, make_motion(left, turn)), splat(1.0f));
+        done.turn = bounded_turn(done.turn);
     }
-    return scale(turn, m.pushed > splat(0.0f) ? splat(0.0f) : splat(1.0f));
+    const real is_turned = m.pushed > splat(0.0f) ? splat(0.0f) : splat(1.0f);
+    return make_motion(add(done.shift, lift), scale(done.turn, is_turned));
 }
 
 /// How far the body of each run has to go.
@@ -33,8 +40,8 @@ WEFT_KERNEL(solve_runs, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* f
             int run_count) {
     const real zero = splat(0.0f);
     const moments m = sum_of_runs(sums, load_whole(first_run, i), load(counts, i), most_runs);
-    store4(motions, i, with_w(without_throw(m.lag, m, no_motion().shift), zero));
-    store4(motions, column(i, run_count + 1, 1), with_w(missing_turn(m), zero));
+    const body_motion missing = missing_motion(m, without_throw(m.lag, m, no_motion().shift));
+    store_motion(motions, run_count + 1, i, missing);
     store4(motions, column(i, run_count + 1, 2), with_w(m.centre, zero));
 }
 

@@ -7,8 +7,9 @@
 // r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
-#define WEFT_MOMENT_PARTS 8
+#define WEFT_MOMENT_PARTS 11
 
+#include "kernels/bodies/holding.h"
 #include "kernels/bodies/motions.h"
 #include "kernels/bodies/runs.h"
 
@@ -23,7 +24,8 @@ typedef struct {
     real3 push;    ///< of obstacles, by which they moved x~ [m]
     real3 way;     ///< that it has gone in the substep [m]; 0 without obstacles, as are those here
     real lead;     ///< of push . way: of what has been pushed [m^2]
-    real pushed;   ///< above 0 where obstacles have pushed vertices in this substep [m]
+    real pushed;   ///< above 0 where obstacles have pushed vertices of what is not to be turned [m]
+    holding hold;  ///< of what is, none of the rest
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
@@ -36,7 +38,8 @@ WEFT_INLINE moments no_moments(void) {
                  zero,
                  zero,
                  splat(0.0f),
-                 splat(0.0f)};
+                 splat(0.0f),
+                 no_holding()};
     return m;
 }
 
@@ -51,10 +54,11 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.way = add_scaled(a.way, b.way, share);
     a.lead = a.lead + b.lead * share;
     a.pushed = a.pushed + b.pushed * share;
+    a.hold = add_share_of_holding(a.hold, b.hold, share);
     return a;
 }
 
-/// table  [8 * rows] column-major: a column per part
+/// table  [11 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -65,6 +69,10 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
     store4(table, column(i, rows, 6), with_w(m.push, m.pushed));
     store4(table, column(i, rows, 7), with_w(m.way, m.lead));
+    const sym3 held = m.hold.spread;
+    store4(table, column(i, rows, 8), with_w(m.hold.place, m.hold.part));
+    store4(table, column(i, rows, 9), with_w(make3(held.xx, held.xy, held.xz), splat(0.0f)));
+    store4(table, column(i, rows, 10), with_w(make3(held.yy, held.yz, held.zz), splat(0.0f)));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -87,24 +95,33 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
     const real4 way = gather4(table + 7 * stride, k);
     m.way = xyz(way);
     m.lead = way.w;
+    const real4 place = gather4(table + 8 * stride, k);
+    const real4 first_row = gather4(table + 9 * stride, k);
+    const real4 rest = gather4(table + 10 * stride, k);
+    m.hold.part = place.w;
+    m.hold.place = xyz(place);
+    m.hold.spread = make_sym(first_row.x, first_row.y, first_row.z, rest.x, rest.y, rest.z);
     return m;
 }
 
 /// The part of one column.
 /// positions  [vertices] xyz: x [m]
-/// targets    [vertices] xyz: x~ [m], w: above 0 where obstacles have pushed it in this substep (its
-///            grip, obstacles/grip.h [m]), and with xpbd, whose bodies turn by themselves
+/// targets    [vertices] xyz: x~ [m], w: the grip, above 0 where obstacles have pushed the vertex
+///            in this substep (obstacles/grip.h) [m], and with xpbd, whose bodies turn by themselves
 /// previous, starts  [vertices] xyz: x and x~ before obstacles have pushed [m]; not read unless
 ///            has_pushes
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// partials  [8 * columns] written, column-major
+/// firm      [columns] 1: the body is turned while obstacles push it, too; 0: it is not
+/// partials  [11 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
             WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
-            WEFT_GLOBAL float4* partials, int has_pushes, int column_count) {
+            WEFT_GLOBAL const float* firm, WEFT_GLOBAL float4* partials, int has_pushes,
+            int column_count) {
     const real3 origin = xyz(gather4(positions, load_index(origins, i)));
+    const real turned = load(firm, i);
     moments sum = no_moments();
     const int length = rows[2 * i.first + 1];
     for (int k = 0; k < length; ++k) {
@@ -114,21 +131,27 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         const real3 r = subtract(x, origin);
         const real4 target = gather4(targets, v);
         const real3 lag = subtract(xyz(target), x);
-        real3 push = no_motion().shift;
-        real3 way = push;
+        const sym3 spread = outer_sym(r, splat(1.0f));
+        moments one = no_moments();
+        one.centre = x;
+        one.spread = spread;
+        one.offset = r;
+        one.lag = lag;
+        one.lags = outer_mat(r, lag);
+        one.pushed = target.w * (splat(1.0f) - turned);
         if (has_pushes) {
-            push = subtract(xyz(target), xyz(gather4(starts, v)));
-            way = subtract(x, xyz(gather4(previous, v)));
+            one.push = subtract(xyz(target), xyz(gather4(starts, v)));
+            one.way = subtract(x, xyz(gather4(previous, v)));
+            one.lead = dot3(one.push, one.way);
+            one.hold = holding_at(r, spread, target.w, length3(one.push), turned);
         }
-        const moments one = {x,   outer_sym(r, splat(1.0f)), r,       lag, outer_mat(r, lag), push,
-                             way, dot3(push, way),           target.w};
         sum = add_share_of_moments(sum, one, load(shares, entry));
     }
     store_moments(partials, column_count, i, sum);
 }
 
 /// The moments of a body, from its centre of mass.
-/// sums   [8 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// sums   [11 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
 WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
@@ -141,6 +164,7 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
             add_share_of_moments(sum, gather_moments(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
     }
     const real3 back = scale(sum.offset, splat(-1.0f));
+    sum.hold = holding_from(sum.hold, back);
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
     sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));
     sum.offset = no_motion().shift;
@@ -167,7 +191,7 @@ WEFT_INLINE real3 without_throw(real3 lag, moments m, real3 gone) {
 /// Adds up the runs of each body.
 /// sums               as in sum_of_runs
 /// first_run, counts  [bodies]
-/// moments_of         [8 * (bodies + 1)] written, column-major; of the last one nothing
+/// moments_of         [11 * (bodies + 1)] written, column-major; of the last one nothing
 WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {
@@ -180,6 +204,21 @@ WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int*
 WEFT_INLINE sym3 inertia_of(moments m) {
     const real size = trace_sym(m.spread);
     return add_diagonal(scale_sym(m.spread, splat(-1.0f)), size + splat(2e-5f) * size);
+}
+
+/// The part of a lag along which obstacles push the body: it leads away from what holds it.
+WEFT_INLINE real3 lift_of(real3 lag, moments m) {
+    const real length = length3(m.push);
+    const real3 up = scale(m.push, splat(1.0f) / divisor(length));
+    return scale(up, dot3(lag, up));
+}
+
+/// The form of inertia, in parts of the mass, and of what is held.
+WEFT_INLINE sym6 own_form_of(moments m) {
+    sym6 a = no_sym6();
+    a.shift = diagonal_sym(splat(1.0f));
+    a.turn = inertia_of(m);
+    return add_scaled_sym6(a, form_of_holding(m.hold), splat(1.0f));
 }
 
 /// The mean of (R r - r) r^T, of the mean of r r^T.

@@ -108,7 +108,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// standing       [columns] as collect_pushes leaves it, as are rows to other_points
 /// column_bodies  [columns] of which body each is
 /// masses         [bodies] [kg]
-/// moments_of     [8 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
+/// moments_of     [11 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
@@ -251,7 +251,7 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 /// first_run  [bodies]
 /// counts     [bodies] of its runs
 /// masses     [bodies] [kg]
-/// moments_of [8 * (bodies + 1)] as weigh_bodies leaves them
+/// moments_of [11 * (bodies + 1)] as weigh_bodies leaves them
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
 /// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
@@ -285,14 +285,18 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     sum.lag.turn = add(sum.lag.turn, lag_of_turn(body, gone.turn));
     sum.lag.shift = without_throw(sum.lag.shift, body, gone.shift);
 
+    const real3 rest = scale(sum.lag.shift, splat(1.0f) - is_held(body.hold));
+    const body_motion alone =
+        has_moved ? make_motion(rest, no_motion().turn) : missing_motion(body, sum.lag.shift);
+    const body_motion held = multiply_sym6(form_of_holding(body.hold), gone);
+    sum.lag = add_scaled_motion(sum.lag, held, splat(-1.0f));
+
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;
-    sym6 own_form = no_sym6();
-    own_form.shift = diagonal_sym(splat(1.0f));
-    own_form.turn = inertia_of(body);
+    const sym6 own_form = own_form_of(body);
     body_motion step = solve_sym6(add_scaled_sym6(sum.block, own_form, splat(1.0f)), sum.lag);
-    const real3 alone = has_moved ? no_motion().turn : missing_turn(body);
     const real touching = mass > zero ? splat(1.0f) : zero;
-    step.turn = add_scaled(scale(step.turn, touching), alone, splat(1.0f) - touching);
+    step = add_scaled_motion(add_scaled_motion(no_motion(), step, touching), alone,
+                             splat(1.0f) - touching);
     const sym6 form = add_scaled_sym6(sum.outside, own_form, splat(1.0f));
     const body_motion left = add_scaled_motion(sum.lag, multiply_sym6(form, step), splat(-1.0f));
     gone = add_scaled_motion(gone, step, splat(1.0f));
@@ -309,7 +313,7 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
 /// Moves the vertices of free bodies; see move_runs.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
-/// moments_of  [8 * (bodies + 1)] likewise
+/// moments_of  [11 * (bodies + 1)] likewise
 /// bodies      [vertices] which each belongs to; the last one: to none
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,

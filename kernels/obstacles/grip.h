@@ -7,7 +7,7 @@
 #include "kernels/vector.h"
 
 /// At least this is it where an obstacle has pushed the vertex in the substep, however far it has
-/// slid; otherwise 0. (What is pushed is not turned with its body: bodies/moments.h.)
+/// slid; otherwise 0. (Cloth that is pushed is not turned as a whole: bodies/moments.h.)
 #define WEFT_NO_GRIP 1e-30f
 
 WEFT_KERNELS_BEGIN

@@ -19,6 +19,19 @@ bool is_held(const Model& model, int begin, int end) {
     return std::any_of(model.positions->data() + begin, model.positions->data() + end, held);
 }
 
+/// Neighbours mostly are of the same body of the scene.
+bool is_solid(const Model& model, int begin, int end) {
+    const BodyRange* known = nullptr;
+    for (int v = begin; v < end; ++v) {
+        const SceneVertex vertex = model.scene_vertex(v);
+        if (known && known->has(vertex)) continue;
+        const auto has = [&](const BodyRange& body) { return body.has(vertex); };
+        known = &*std::ranges::find_if(model.bodies, has);
+        if (known->kind != "solid") return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::unique_ptr<FreeBodies> FreeBodies::of(const Model& model) {
@@ -36,11 +49,12 @@ std::vector<FreeBodies::Run> FreeBodies::runs_of(const Model& model,
         const int last = bodies[at(body + 1)];
         int begin = bodies[at(body)];
         if (last - begin < 2 || is_held(model, begin, last)) continue;
+        const bool solid = is_solid(model, begin, last);
         while (begin < last) {
             const int strip = model.strips.strip_of(begin);
             const int end = std::min(last, model.strips.begin[at(strip + 1)]);
             WEFT_ASSERT(begin < end);
-            runs.push_back({body, strip, begin, end});
+            runs.push_back({body, strip, begin, end, solid});
             begin = end;
         }
     }

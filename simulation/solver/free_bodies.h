@@ -39,6 +39,7 @@ public:
 
     struct Run {
         int body, strip, begin, end;  ///< vertices [begin, end)
+        bool is_solid;                ///< all of the body
     };
     const Run& run(int r) const { return runs_[static_cast<std::size_t>(r)]; }
     int run_count() const { return static_cast<int>(runs_.size()); }

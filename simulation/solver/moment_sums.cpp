@@ -15,9 +15,10 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 /// The vertex in the middle of a body's order is somewhere in its middle.
-MomentSums::MomentSums(FreeBodies& bodies)
+MomentSums::MomentSums(FreeBodies& bodies, PushedSolids solids)
     : bodies_(bodies),
       origins_("free.origins", at(bodies.column_count())),
+      firm_("free.firm", origins_.count()),
       partials_("free.partials", at(kParts * bodies.column_count())),
       sums_("free.moments", at(kParts * (bodies.run_count() + bodies.most_runs()))) {
     for (int first = 0, end = 0; first < bodies.run_count(); first = end) {
@@ -25,6 +26,8 @@ MomentSums::MomentSums(FreeBodies& bodies)
         const int middle = (bodies.run(first).begin + bodies.run(end - 1).end) / 2;
         std::fill(origins_.data() + WEFT_RUN_COLUMNS * first,
                   origins_.data() + WEFT_RUN_COLUMNS * end, middle);
+        std::fill(firm_.data() + WEFT_RUN_COLUMNS * first, firm_.data() + WEFT_RUN_COLUMNS * end,
+                  bodies.run(first).is_solid && solids == PushedSolids::kTurned ? 1.0f : 0.0f);
     }
 }
 
@@ -33,11 +36,11 @@ std::vector<Launch> MomentSums::sum(Model& model, Buffer<float4>& positions,
     model_ = &model;
     starts_ = starts;
     const BodyColumns columns = bodies_.columns();
-    return {
-        launch(kernels::add_moments, columns.by_strip, positions, targets,
-               starts ? *model.previous : targets, starts ? *starts : targets, columns.members,
-               columns.shares, columns.rows, origins_, partials_, starts ? 1 : 0, columns.count),
-        bodies_.add_columns(partials_, sums_, {kParts, 1, kParts})};
+    return {launch(kernels::add_moments, columns.by_strip, positions, targets,
+                   starts ? *model.previous : targets, starts ? *starts : targets, columns.members,
+                   columns.shares, columns.rows, origins_, firm_, partials_, starts ? 1 : 0,
+                   columns.count),
+            bodies_.add_columns(partials_, sums_, {kParts, 1, kParts})};
 }
 
 void MomentSums::add_sum_accesses(Step::Adding& task, const Region& region) {

@@ -9,12 +9,19 @@
 
 namespace weft {
 
+/// What is done with a solid while obstacles push it. (Cloth is shifted then: what hangs from what
+/// it drapes over would turn it.)
+enum class PushedSolids {
+    kTurned,   ///< round what friction holds of it (kernels/bodies/holding.h)
+    kShifted,  ///< by xpbd, whose bodies turn by themselves
+};
+
 /// Adds up, run by run, where the mass of free bodies is and where it should be
 /// (kernels/bodies/moments.h).
 class MomentSums {
 public:
     /// bodies must outlive this.
-    explicit MomentSums(FreeBodies& bodies);
+    MomentSums(FreeBodies& bodies, PushedSolids solids);
 
     /// starts: [vertices] targets before obstacles have pushed them; null: there are none.
     std::vector<Launch> sum(Model& model, Buffer<float4>& positions, Buffer<float4>& targets,
@@ -24,7 +31,7 @@ public:
     /// and of others: the vertex that a body is seen from may lie there.
     void add_origin_reads(Step::Adding& task, const Region& region, Buffer<float4>& positions);
 
-    /// [columns], [8 * (runs + most_runs)] see the kernels
+    /// [columns], [11 * (runs + most_runs)] see the kernels
     Buffer<int>& origins() { return origins_; }
     Buffer<float4>& sums() { return sums_; }
     void add_reads(Step::Adding& task);
@@ -34,7 +41,8 @@ private:
     Model* model_ = nullptr;            ///< behind sum(), as are
     Buffer<float4>* starts_ = nullptr;  ///< those; null: no obstacles
     Buffer<int> origins_;
-    Buffer<float4> partials_;  ///< [8 * columns]
+    Buffer<float> firm_;       ///< [columns]
+    Buffer<float4> partials_;  ///< [11 * columns]
     Buffer<float4> sums_;
 };
 

@@ -59,7 +59,8 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
       bearings_("touching.bearings", motions_.count()),
-      moments_(bodies, first_run_, counts_),
+      moments_(bodies, multipliers ? PushedSolids::kShifted : PushedSolids::kTurned, first_run_,
+               counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());

@@ -16,7 +16,8 @@ namespace weft {
 /// there are sums as FreeBodies', and a task of one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
-    /// multipliers: as BodyPushes'. first_kind: of the tasks. All others must outlive this.
+    /// multipliers: as BodyPushes'; with them, as xpbd has, what obstacles push is not turned.
+    /// first_kind: of the tasks. All others must outlive this.
     TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
                    Buffer<float>* multipliers, int first_kind);
 

@@ -2,6 +2,7 @@
 #include "kernels/contact/pushes.h"
 #include "kernels/contact/strains.h"
 #include "tests/kernels/contact_response_parts.h"
+#include "tests/kernels/held_point.h"
 
 namespace weft::test {
 namespace {
@@ -78,9 +79,11 @@ void moments_case(KernelCase& c) {
     auto& starts = add_points(c, "starts", c.items);
     Columns columns(c);
     auto& origins = add_indices(c, "origins", c.items, c.items);
+    auto& firm = c.add<float>("firm", c.items);
+    for (float& is_firm : firm.span()) is_firm = static_cast<float>(c.random.integer(0, 1));
     auto& partials = c.add<float4>("partials", WEFT_MOMENT_PARTS * c.items);
     c.launch = launch(kernels::add_moments, c.segments, positions, targets, previous, starts,
-                      columns.members, columns.shares, columns.rows, origins, partials,
+                      columns.members, columns.shares, columns.rows, origins, firm, partials,
                       c.random.integer(0, 1), c.items);
 }
 
@@ -117,6 +120,7 @@ Buffer<float4>& add_moments(KernelCase& c, int bodies) {
         moments[at(b)].w = spread();
         moments[at(rows + b)] = {0.0f, 0.0f, spread(), 0.0f};
         moments[at(2 * rows + b)] = {0.0f, 0.0f, 0.0f, spread()};
+        hold_a_point(c, moments.data() + b, rows);
     }
     return moments;
 }

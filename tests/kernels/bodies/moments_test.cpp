@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "kernels/bodies/free_bodies.h"
 #include "kernels/contact/bodies.h"
 #include "tests/kernels/random.h"
 #include "tests/kernels/run_on_host.h"
@@ -28,7 +29,7 @@ struct Cloud {
     Buffer<int> members{"members", kColumns}, rows{"rows", 2 * kColumns},
         origins{"origins", kColumns}, first_run{"first_run", 1},
         starts{"starts", WEFT_MOMENT_PARTS}, places{"places", WEFT_MOMENT_PARTS};
-    Buffer<float> shares{"shares", kColumns}, counts{"counts", 1};
+    Buffer<float> shares{"shares", kColumns}, firm{"firm", kColumns}, counts{"counts", 1};
     Buffer<float4> partials{"partials", WEFT_MOMENT_PARTS*kColumns},
         sums{"sums", 2 * WEFT_MOMENT_PARTS}, table{"moments", 2 * WEFT_MOMENT_PARTS};
 
@@ -58,7 +59,7 @@ struct Cloud {
 
     moments weigh() {
         run(launch(kernels::add_moments, Segments{}, positions, targets, previous, unpushed,
-                   members, shares, rows, origins, partials, 1, kColumns),
+                   members, shares, rows, origins, firm, partials, 1, kColumns),
             kColumns);
         run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
             WEFT_MOMENT_PARTS);
@@ -150,6 +151,83 @@ TEST(BodyMoments, WhatBearsABodyDoesNotThrowIt) {
     // What falls onto it is braked: three quarters of the vertices have gone down by 0.004.
     expect(borne_lag(make3(0.0f, 0.002f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.002);
     expect(borne_lag(make3(0.0f, 0.005f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.003);
+}
+
+/// Lies on its first five vertices, of which friction holds some; the last of them slides.
+struct LyingHeap : Heap {
+    static constexpr int kPushed = 5, kHeld = 4;
+    explicit LyingHeap(float is_firm) {
+        std::fill_n(firm.data(), firm.count(), is_firm);
+        for (std::size_t v = 0; v < positions.count(); ++v) {
+            previous[v] = positions[v];
+            unpushed[v] = targets[v];
+            if (v >= kPushed) continue;
+            unpushed[v].y -= 1e-3f;
+            targets[v].w = v < kHeld ? 1e-4f : 1e-9f;
+        }
+    }
+
+    using Form = Eigen::Matrix<double, 6, 6>;
+    /// Of motions about the centre of mass: what the first `vertices` of them overcome.
+    Form form(int vertices) const {
+        Form sum = Form::Zero();
+        for (std::size_t v = 0; v < static_cast<std::size_t>(vertices); ++v) {
+            const Eigen::Vector3d r = in_double(positions[v]) - centre();
+            Eigen::Matrix<double, 3, 6> way = Eigen::Matrix<double, 3, 6>::Zero();
+            way.leftCols<3>().setIdentity();
+            way.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
+            sum += way.transpose() * way / count;
+        }
+        return sum;
+    }
+};
+
+TEST(BodyMoments, TellWhatFrictionHoldsOfASolid) {
+    LyingHeap heap(1.0f);
+    const moments found = heap.weigh();
+    EXPECT_NEAR(found.hold.part, LyingHeap::kHeld / 20.0, 1e-6);
+    const sym6 form = form_of_holding(found.hold);
+    const LyingHeap::Form expected = WEFT_HELD_WEIGHT * heap.form(LyingHeap::kHeld);
+    for (int i = 0; i < 6; ++i) {
+        real unit[6] = {};
+        unit[i] = 1.0f;
+        const body_motion column = multiply_sym6(
+            form, make_motion(make3(unit[0], unit[1], unit[2]), make3(unit[3], unit[4], unit[5])));
+        Eigen::Matrix<double, 6, 1> got;
+        got << in_double(column.shift), in_double(column.turn);
+        EXPECT_LT((got - expected.col(i)).norm(), 1e-4 * expected.norm()) << i;
+    }
+    EXPECT_EQ(found.pushed, 0.0f);
+}
+
+/// What hangs from what it drapes over would turn it.
+TEST(BodyMoments, ClothThatIsPushedIsNotTurned) {
+    LyingHeap heap(0.0f);
+    const moments found = heap.weigh();
+    EXPECT_EQ(found.hold.part, 0.0f);
+    EXPECT_GT(found.pushed, 0.0f);
+    const body_motion motion = missing_motion(found, make3(0.001f, 0.0f, 0.002f));
+    EXPECT_EQ(length3(motion.turn), 0.0f);
+    EXPECT_EQ(motion.shift.x, 0.001f);
+    EXPECT_EQ(motion.shift.z, 0.002f);
+}
+
+/// What leads it away from the obstacle is no matter of what holds it.
+TEST(BodyMoments, TheStepOfASolidGoesRoundWhatIsHeld) {
+    LyingHeap heap(1.0f);
+    const moments found = heap.weigh();
+    const real3 shift = make3(0.001f, 0.0005f, 0.002f);
+    const body_motion motion = missing_motion(found, shift);
+    LyingHeap::Form form = WEFT_HELD_WEIGHT * heap.form(LyingHeap::kHeld);
+    form += heap.form(heap.count);
+    Eigen::Matrix<double, 6, 1> lag;
+    lag << shift.x, 0.0, shift.z, heap.angular_lag({});
+    Eigen::Matrix<double, 6, 1> got;
+    got << in_double(motion.shift), in_double(motion.turn);
+    got(1) -= static_cast<double>(shift.y);
+    const Eigen::Matrix<double, 6, 1> expected = form.ldlt().solve(lag);
+    EXPECT_GT(expected.tail<3>().norm(), 1e-3);
+    EXPECT_LT((got - expected).norm(), 0.02 * expected.norm());
 }
 
 /// Pushed at one end: by a contact of that normal there.

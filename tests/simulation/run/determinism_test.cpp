@@ -37,6 +37,7 @@ const TestScene kScenes[] = {
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "d636f27ba0f14dcba17e327f1b7d8556"},
     {"VbdTouching", kTouching, Method::kVbd, "fd904b6194fe154f4dd3ddc3e84648d7"},
+    {"VbdLying", kLying, Method::kVbd, "a933e745a09491f11686cd68658b53e2"},
     {"VbdRubbing", kRubbing, Method::kVbd, "fc9e5d2dafb06ebc8081a7fb863e0f78"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "2eeb31ac2a0d7f7d0bb60370afe1547b"},
     {"SosdTouching", kTouching, Method::kSosd, "4d35c280a63eebb44ad0d7179e9c5259"},

@@ -318,4 +318,55 @@ stretch = { stiffness = 300.0 }
     return text;
 }();
 
+/// What friction holds of solids while obstacles push them, of one that tips over, and of a sheet.
+inline const std::string kLying = R"(
+[scene]
+frames = 4
+dt = 0.02
+substeps = 4
+gravity = [2.0, -9.6, 0.0]
+
+[solver]
+iterations = 5
+
+[[solid]]
+name = "low"
+grid = { size = [0.3, 0.1, 0.2], resolution = [8, 4, 6] }
+rotate = [0, 1, 0, 17]
+translate = [0.0, 0.051, 0.0]
+density = 500.0
+young = 1.0e6
+poisson = 0.3
+
+[[solid]]
+name = "tall"
+grid = { size = [0.1, 0.5, 0.1], resolution = [4, 11, 4] }
+rotate = [0, 0, 1, 5]
+translate = [0.5, 0.255, 0.1]
+density = 500.0
+young = 1.0e6
+poisson = 0.3
+
+[[cloth]]
+name = "sheet"
+grid = { size = [0.3, 0.3], resolution = [12, 12] }
+translate = [-0.5, 0.001, 0.0]
+density = 0.2
+stretch = { stiffness = 300.0 }
+
+[[obstacle]]
+name = "floor"
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+friction = 0.4
+thickness = 0.002
+
+[[obstacle]]
+name = "ledge"
+shape = "box"
+center = [0.6, 0.0, 0.1]
+size = [0.1, 0.02, 0.4]
+thickness = 0.002
+)";
+
 }  // namespace weft::test
