@@ -5,10 +5,13 @@
 // signed distance of a point and the normal there, in its own frame; WEFT_OBSTACLE_KERNELS makes
 // its kernel of it.
 //
-// In a swept substep a vertex or the obstacle may move so far that the vertex is past the obstacle,
-// or nearer to its other side. Then the vertex' way counts, taken as straight in the obstacle's
-// frame: the plane through its first contact is what pushes it out. The vertex and where it came
-// from end up on one side of a plane that has the whole obstacle on its other side.
+// A vertex that has gone far since its substep began may be past the obstacle, or nearer to its
+// other side. Then it is swept: its way counts, taken as straight in the obstacle's frame, and the
+// plane through its first contact is what pushes it out. The vertex and where it came from end up
+// on one side of a plane that has the whole obstacle on its other side.
+//
+// Each push asks that of each vertex, as nothing that is known before a substep says how far its
+// iterations take one: a stiff edge that snaps is gone and stopped again within a frame.
 
 #include "kernels/lanes.h"
 #include "kernels/obstacles/grip.h"
@@ -27,7 +30,8 @@ typedef struct {
 ///   0..2  rows (r, t) of the map from the world at the substep's end to the local frame
 ///   3..5  rows of the map from the local frame to the world at the substep's start
 ///   6     dimensions [m], as the shape reads them
-///   7     thickness [m], friction coefficient, 1 where the substep is swept, 0
+///   7     thickness [m], friction coefficient, square of the way from which on a vertex is swept
+///         [m^2] (the largest number: none is), 0
 #define WEFT_OBSTACLE_ROWS 8
 
 /// The distance is convex along a straight way, so Newton's method comes to the first contact from
@@ -161,6 +165,23 @@ WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearne
         return near;                                                                             \
     }                                                                                            \
                                                                                                  \
+    /* Of a vertex at x that was at `start`, both in the world; the normal is the frame's. */    \
+    WEFT_INLINE nearness seen_from_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 x) {  \
+        const real3 end = apply(o, x);                                                           \
+        const real3 way = subtract(x, start);                                                    \
+        const real too_far = dot3(way, way) - splat(o[7].z);                                     \
+        const real zero = splat(0.0f);                                                           \
+        nearness near = near_##shape(end, o[6]);                                                 \
+        if (any_item(too_far >= zero)) {                                                         \
+            const nearness met = met_##shape(o, local_at_start(o, start), end);                  \
+            near.distance = too_far >= zero ? met.distance : near.distance;                      \
+            near.normal.x = too_far >= zero ? met.normal.x : near.normal.x;                      \
+            near.normal.y = too_far >= zero ? met.normal.y : near.normal.y;                      \
+            near.normal.z = too_far >= zero ? met.normal.z : near.normal.z;                      \
+        }                                                                                        \
+        return near;                                                                             \
+    }                                                                                            \
+                                                                                                 \
     WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                              \
                 WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* targets,                 \
                 WEFT_GLOBAL const float4* obstacles, int told, int obstacle_count, int obstacle, \
@@ -169,12 +190,7 @@ WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearne
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);              \
         const real4 x = load4(positions, i);                                                     \
         const real3 start = xyz(load4(previous, i));                                             \
-        const real3 end = apply(o, xyz(x));                                                      \
-        nearness near;                                                                           \
-        if (o[7].z > 0.0f)                                                                       \
-            near = met_##shape(o, local_at_start(o, start), end);                                \
-        else                                                                                     \
-            near = near_##shape(end, o[6]);                                                      \
+        nearness near = seen_from_##shape(o, start, xyz(x));                                     \
         near.normal = apply_back(o, near.normal);                                                \
         const real depth = push_depth(o, near.distance, x.w);                                    \
         if (told == WEFT_PUSH_LAST || any_item(depth > splat(0.0f))) {                           \

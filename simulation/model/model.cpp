@@ -16,9 +16,6 @@ namespace weft {
 
 namespace {
 
-/// Elastic forces make vertices faster. Twice is seldom reached within a frame.
-constexpr double kMargin = 2.0;
-
 /// Pins in the new order of vertices, ascending.
 std::vector<MovingPins::Group> in_new_order(std::vector<MovingPins::Group> groups,
                                             const Strips& strips) {
@@ -237,40 +234,7 @@ void Model::place(double time) {
     }
     if (moving_pins) moving_pins->place(time, h);
     for (auto& family : families) family->place(time, h);
-    time_ = time;
-    if (obstacles) place_obstacles(obstacles->have_width() ? speed_ahead() : 0.0);
-}
-
-void Model::place_obstacles(double speed) {
-    speed_limit_ = speed;
-    swept_ = obstacles->place(time_, h, speed);
-}
-
-bool Model::outran_obstacles() {
-    if (!obstacles || !obstacles->have_width()) return false;
-    const double speed = fastest();
-    if (!(speed > speed_limit_)) return false;
-    const int before = swept_;
-    place_obstacles(kMargin * speed);
-    return swept_ > before;
-}
-
-/// The largest speed of a vertex [m/s]; what is not a number is passed over.
-double Model::fastest() const {
-    float most = 0.0f;
-    for (const float4& v : velocities->span()) {
-        const float square = v.x * v.x + v.y * v.y + v.z * v.z;
-        if (square > most) most = square;
-    }
-    return std::sqrt(static_cast<double>(most));
-}
-
-/// What no vertex will outrun in the frame, if all goes well [m/s].
-double Model::speed_ahead() const {
-    double fall = 0.0;
-    for (const float4& g : gravity->span()) fall = std::max(fall, length(to_vec3(g)));
-    const double pins = moving_pins ? moving_pins->farthest_move(time_, h) / h : 0.0;
-    return kMargin * fastest() + fall * scene.dt + pins;
+    if (obstacles) obstacles->place(time, h);
 }
 
 std::vector<BufferStorage*> Model::placed_buffers() {

@@ -47,12 +47,8 @@ public:
     std::vector<float> in_scene(std::vector<float> xyz) const;
     /// The other way.
     std::vector<float> from_origin(std::vector<float> xyz) const;
-    /// Fills in what moves by itself during the frame that begins at `time`; the velocities are
-    /// those of its start.
+    /// Fills in what moves by itself during the frame that begins at `time`.
     void place(double time);
-    /// After that frame: whether vertices got so fast in it that obstacles have to be swept that
-    /// were not. Then these are placed anew for it, and it has to run again from its start.
-    bool outran_obstacles();
     /// The buffers that place() writes.
     std::vector<BufferStorage*> placed_buffers();
 
@@ -111,13 +107,6 @@ private:
         return nullptr;
     }
 
-    void place_obstacles(double speed);
-    double fastest() const;
-    double speed_ahead() const;
-
-    double time_ = 0.0;         ///< start of the frame that place() was for [s]
-    double speed_limit_ = 0.0;  ///< that obstacles are placed for [m/s]
-    int swept_ = 0;             ///< obstacles, of all its substeps
     Owned<Buffer<int>> strip_begin_;
     Segments vertices_;
 };

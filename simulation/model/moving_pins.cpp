@@ -80,21 +80,6 @@ void MovingPins::add_placed(std::vector<BufferStorage*>& buffers) {
     }
 }
 
-double MovingPins::farthest_move(double time, double h) const {
-    double most = 0.0;
-    for (int substep = 0; substep < substeps_; ++substep) {
-        for (const Group& group : groups_) {
-            const Frame before = group.motion.displacement(time + substep * h);
-            const Frame now = group.motion.displacement(time + (substep + 1) * h);
-            for (std::size_t i = 0; i < group.rest.size(); ++i) {
-                most = std::max(most, length(place_of(group, i, time + (substep + 1) * h, now) -
-                                             place_of(group, i, time + substep * h, before)));
-            }
-        }
-    }
-    return most;
-}
-
 std::optional<Vec3> MovingPins::common_velocity(double time, double h, int substeps) const {
     constexpr double kSame = 1e-6;  // of both, in single precision
     const auto place = [&](const Group& group, int substep) {

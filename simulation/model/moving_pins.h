@@ -26,8 +26,6 @@ public:
 
     /// Fills in the frame that begins at `time` and has substeps of h [s].
     void place(double time, double h);
-    /// The farthest that a pin goes in a substep of that frame [m].
-    double farthest_move(double time, double h) const;
     /// The velocity of all pins, if they all have the same in all `substeps` of h [s] from `time`
     /// on [m/s].
     std::optional<Vec3> common_velocity(double time, double h, int substeps) const;

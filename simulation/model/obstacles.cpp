@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "kernels/obstacles/shapes.h"
@@ -49,29 +50,22 @@ std::vector<Stay> stays_of(const std::vector<Obstacle>& obstacles, double start,
     return stays;
 }
 
-/// Vertices take on the speed of what pushes them.
-double farthest_of_others(const std::vector<Stay>& stays, std::size_t own) {
-    double most = 0.0;
-    for (std::size_t i = 0; i < stays.size(); ++i) {
-        if (i != own) most = std::max(most, stays[i].move);
-    }
-    return most;
+/// From which way of a vertex on, squared [m^2], it may be past the middle of the obstacle, where
+/// it would be pushed out on the wrong side, or not at all. Of a plane it never is.
+double swept_from(const Obstacle& obstacle, const Stay& stay) {
+    const double way = 0.5 * obstacle.half_width + obstacle.thickness - stay.move;
+    constexpr double kNever = std::numeric_limits<float>::max();
+    return way > 0.0 ? std::min(way * way, kNever) : 0.0;
 }
 
-/// Whether something that comes [m] nearer in one substep may get past the middle of the obstacle,
-/// where it would be pushed out on the wrong side, or not at all.
-bool may_be_passed(const Obstacle& obstacle, double way) {
-    return way > 0.5 * obstacle.half_width + obstacle.thickness;
-}
-
-void write_placement(float4* rows, const Obstacle& obstacle, const Stay& stay, bool is_swept) {
+void write_placement(float4* rows, const Obstacle& obstacle, const Stay& stay) {
     const Mat3 to_local = transposed(stay.now.axes);
     write_rows(rows, to_local, -(to_local * stay.now.origin));
     write_rows(rows + 3, stay.before.axes, stay.before.origin);
     const auto& d = obstacle.dimensions;
     rows[6] = to_float4({d[0], d[1], d[2]}, d[3]);
-    rows[7] =
-        to_float4({obstacle.thickness, obstacle.friction.value_or(0.0), is_swept ? 1.0 : 0.0});
+    rows[7] = to_float4(
+        {obstacle.thickness, obstacle.friction.value_or(0.0), swept_from(obstacle, stay)});
 }
 
 kernels::nearness near_obstacle(const Obstacle& obstacle, Vec3 local) {
@@ -94,25 +88,15 @@ Obstacles::Obstacles(const std::vector<Obstacle>& obstacles, int substeps)
       placements_("obstacles",
                   static_cast<std::size_t>(substeps) * obstacles.size() * WEFT_OBSTACLE_ROWS) {}
 
-int Obstacles::place(double time, double h, double vertex_speed) {
-    int swept = 0;
+void Obstacles::place(double time, double h) {
     float4* rows = placements_.data();
     for (int substep = 0; substep < substeps_; ++substep) {
         const auto stays = stays_of(obstacles_, time + substep * h, time + (substep + 1) * h);
         for (std::size_t i = 0; i < stays.size(); ++i) {
-            const double way = vertex_speed * h + stays[i].move + farthest_of_others(stays, i);
-            const bool is_swept = may_be_passed(obstacles_[i], way);
-            write_placement(rows, obstacles_[i], stays[i], is_swept);
+            write_placement(rows, obstacles_[i], stays[i]);
             rows += WEFT_OBSTACLE_ROWS;
-            swept += is_swept ? 1 : 0;
         }
     }
-    return swept;
-}
-
-bool Obstacles::have_width() const {
-    return std::any_of(obstacles_.begin(), obstacles_.end(),
-                       [](const Obstacle& o) { return std::isfinite(o.half_width); });
 }
 
 bool Obstacles::have_friction() const {

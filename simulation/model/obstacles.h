@@ -18,15 +18,11 @@ class Obstacles {
 public:
     Obstacles(const std::vector<Obstacle>& obstacles, int substeps);
 
-    /// Fills in the frame that begins at `time` and has substeps of h [s], for vertices of at most
-    /// so much speed [m/s]. Returns how many obstacles are swept, of all substeps: only where
-    /// something may get past one in a single substep.
-    int place(double time, double h, double vertex_speed);
+    /// Fills in the frame that begins at `time` and has substeps of h [s].
+    void place(double time, double h);
     Buffer<float4>& placements() { return placements_; }
     const Buffer<float4>& placements() const { return placements_; }
 
-    /// Whether there are any that something could get past: of a plane nothing can.
-    bool have_width() const;
     bool have_friction() const;
     /// One launch per obstacle that pushes all vertices out of it.
     /// vertices: one segment per strip

@@ -110,7 +110,7 @@ void FineRun::advance() {
 
 void FineRun::step(double time) {
     const Vec3 gravity = model_.scene.gravity_at(time + 0.5 * h_);
-    if (obstacles_) obstacles_->place(time, h_, 0.0);
+    if (obstacles_) obstacles_->place(time, h_);
     for (auto& family : model_.families) family->place(time, h_);
     if (model_.moving_pins) model_.moving_pins->place_at(time + h_, held_);
     add_forces();

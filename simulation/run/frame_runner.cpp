@@ -16,12 +16,9 @@ void FrameRunner::begin_frame() {
 RunTimes FrameRunner::run(const Step& step, const scheduler::Plan& plan, int frame,
                           ErrorSamples* samples) {
     const Work work{step, plan, frame, samples};
-    bool is_swept_anew = false;
     while (true) {
-        auto times = try_substeps(work);
-        if (times && (is_swept_anew || !live_.model().outran_obstacles())) return std::move(*times);
-        is_swept_anew = is_swept_anew || times.has_value();
-        if (!times) ++redone_;
+        if (auto times = try_substeps(work)) return std::move(*times);
+        ++redone_;
         live_.go_back_to_start();
     }
 }

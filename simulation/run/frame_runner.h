@@ -19,8 +19,7 @@ public:
     /// A frame begins that was not tried yet.
     void begin_frame();
     /// All substeps of the frame. It runs again from its start as long as a table was too small for
-    /// it; once more if bodies went where contact did not look for them; and once more if what is
-    /// faster than was reckoned with might have gone through an obstacle, with that obstacle swept.
+    /// it, and once more if bodies went where contact did not look for them.
     /// samples: which may want the last substep; null: there are none
     RunTimes run(const Step& step, const scheduler::Plan& plan, int frame, ErrorSamples* samples);
     /// How often the frame was run again for contact.

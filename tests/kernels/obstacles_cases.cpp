@@ -3,6 +3,8 @@
 
 #include "kernels/obstacles/contact.h"
 
+#include <limits>
+
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -28,9 +30,11 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
             rows[1] = rows[4] = {0.0f, 1.0f, 0.0f, 0.0f};
         }
         rows[6] = {0.5f, 0.25f, 0.5f, 0.0f};
-        const bool is_swept = c.flavour != Flavour::kRandom || i % 2 == 1;
+        constexpr float kNever = std::numeric_limits<float>::max();
+        const float swept_from[] = {0.0f, 0.25f, kNever};  // all, some, and none
+        const int which = c.flavour == Flavour::kRandom ? c.random.integer(0, 2) : 0;
         const float friction = c.random.integer(0, 2) == 0 ? 0.0f : 0.3f;
-        rows[7] = {0.01f, friction, is_swept ? 1.0f : 0.0f, 0.0f};
+        rows[7] = {0.01f, friction, swept_from[which], 0.0f};
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "kernels/obstacles/box.h"
 #include "kernels/obstacles/capsule.h"
@@ -37,7 +38,7 @@ struct Contact {
             rows[map + 2] = {0, 0, 1, 0};
         }
         rows[6] = dimensions;
-        rows[7] = {kThickness, kFriction, 0, 0};
+        rows[7] = {kThickness, kFriction, std::numeric_limits<float>::max(), 0};
     }
     template <class Kernel>
     Vec3 push(Kernel kernel) {
@@ -225,7 +226,7 @@ void expect_swept(Kernel kernel, float4 dimensions, Distance distance) {
         if (distance(start) < kThicknessOf) continue;
         const Vec3 end = vec(random.point(1.5f));
         Contact contact(end, dimensions);
-        contact.rows[7].z = 1.0f;
+        contact.rows[7].z = 0.0f;
         contact.previous[0] = {static_cast<float>(start.x), static_cast<float>(start.y),
                                static_cast<float>(start.z), 0.0f};
         const Vec3 pushed = contact.push(kernel);
@@ -253,13 +254,24 @@ TEST(Obstacles, SweptOnesAreNeverPassed) {
     expect_swept(kernels::push_out_of_plane, {}, [](Vec3 p) { return p.y; });
 }
 
+TEST(Obstacles, ThinOnesAreSweptByVerticesThatHaveGoneFar) {
+    const auto pushed_from = [](double y) {
+        Contact contact({0.0, -0.5, 0.0}, {1.0f, 0.01f, 1.0f, 0.0f});
+        contact.previous[0].y = static_cast<float>(y);
+        contact.rows[7].z = 0.75f * 0.75f;
+        return contact.push(kernels::push_out_of_box).y;
+    };
+    EXPECT_DOUBLE_EQ(pushed_from(0.24), -0.5) << "0.74 m: as if it had come from below";
+    EXPECT_NEAR(pushed_from(0.26), 0.135, 1e-6) << "0.76 m: it has come through";
+}
+
 TEST(Obstacles, SweptSphereThatFliesThroughAVertexTakesItAlong) {
     // From y = 50 to y = -50, past a vertex at rest half a radius beside its way: the tangent plane
     // of the first contact goes with the sphere.
     Contact contact({0.25, 0.0, 0.0}, {0.5f, 0, 0, 0});
     contact.rows[1].w = 50.0f;
     contact.rows[4].w = 50.0f;
-    contact.rows[7] = {0.0f, 0.0f, 1.0f, 0.0f};
+    contact.rows[7] = {0.0f, 0.0f, 0.0f, 0.0f};
     const Vec3 x = contact.push(kernels::push_out_of_sphere);
     const Vec3 normal{0.5, -std::sqrt(0.75), 0.0};
     const Vec3 centre{0.0, -50.0, 0.0};

@@ -67,17 +67,11 @@ void ManualRun::run_frame(const Division& division, int substeps) {
         before.emplace_back(bytes, bytes + buffer->bytes());
     }
     run_step(division, substeps);
-    bool may_sweep = redoes_frames;
-    for (;;) {
-        const bool has_to_be_redone =
-            grow_tables(solver->tables(), *executor_) || revises_contact();
-        if (!has_to_be_redone && !(may_sweep && model->outran_obstacles())) break;
-        may_sweep = may_sweep && has_to_be_redone;
+    while (grow_tables(solver->tables(), *executor_) || revises_contact()) {
         for (std::size_t b = 0; b < before.size(); ++b) {
             std::memcpy(state()[b]->host(), before[b].data(), before[b].size());
             changed(*state()[b]);
         }
-        hand_over_placed();
         run_step(division, substeps);
     }
     ++frame_;

@@ -38,8 +38,6 @@ public:
 
     std::unique_ptr<Model> model;
     std::unique_ptr<Solver> solver;
-    /// As Simulation does where vertices outran the obstacles. (Tables always grow.)
-    bool redoes_frames = true;
     /// Frames that ran again because bodies went where contact had not foreseen it.
     int unforeseen = 0;
 

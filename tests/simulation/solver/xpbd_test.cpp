@@ -111,7 +111,6 @@ class XpbdReference : public testing::TestWithParam<const std::string*> {};
 TEST_P(XpbdReference, EverySubstepIsThatOfAnIndependentImplementationInDoublePrecision) {
     const Scene scene = parse_scene(*GetParam(), "test.toml");
     ManualRun run(scene);
-    run.redoes_frames = false;  // obstacles are not swept here
     double moved_most = 0.0;
     for (int substeps = 1; substeps <= 4; ++substeps) {
         run.reset();
