@@ -66,10 +66,16 @@ State state_at(const ErrorOptions& options, const Scene& scene, int frame) {
     }));
 }
 
+/// By the scene's own solver, whichever is measured: all of them do the same step.
+int substeps_of_scene(const ErrorOptions& options) {
+    return with_substeps(read_scene(options.run.scene, options.run.overrides())).substeps;
+}
+
 Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations) {
     RunOptions run = options.run;
     run.solver = solver;
-    Scene scene = with_substeps(read_scene(run.scene, run.overrides()));
+    Scene scene = read_scene(run.scene, run.overrides());
+    scene.substeps = substeps_of_scene(options);
     if (!options.obstacles) scene.obstacles.clear();
     if (scene.contact) scene.contact->planes = options.planes || options.obstacles;
     scene.dt /= scene.substeps;

@@ -123,6 +123,7 @@ TEST(AsyncLosses, AWindowOfOneLosesNothing) {
 TEST(AsyncLosses, BothWaysNeedAsManyAsTheirErrorsDo) {
     for (const int iterations : {4, 6}) {
         Scene scene = read_scene(std::string(WEFT_SCENES) + "/tablecloth.toml");
+        scene.substeps = 10;
         scene.solver.iterations = iterations;
         AsyncLoss loss = loss_of(scene, 15);
         EXPECT_EQ(loss.factor(parse_async_settings("window=1"), 2), 1.0) << iterations;
