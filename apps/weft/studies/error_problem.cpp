@@ -43,6 +43,11 @@ void set_state(Model& model, const State& state) {
     model.from_scene_order(state.velocities, model.velocities->span());
 }
 
+/// By the scene's own solver, whichever is measured: all of them do the same step.
+int substeps_of_scene(const ErrorOptions& options) {
+    return with_substeps(read_scene(options.run.scene, options.run.overrides())).substeps;
+}
+
 }  // namespace
 
 State state_at(const ErrorOptions& options, const Scene& scene, int frame) {
@@ -64,11 +69,6 @@ State state_at(const ErrorOptions& options, const Scene& scene, int frame) {
         }
         return to_bytes({simulation.positions(), simulation.velocities()});
     }));
-}
-
-/// By the scene's own solver, whichever is measured: all of them do the same step.
-int substeps_of_scene(const ErrorOptions& options) {
-    return with_substeps(read_scene(options.run.scene, options.run.overrides())).substeps;
 }
 
 Scene scene_of_step(const ErrorOptions& options, const std::string& solver, int iterations) {

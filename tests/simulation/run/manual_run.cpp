@@ -72,6 +72,7 @@ void ManualRun::run_frame(const Division& division, int substeps) {
             std::memcpy(state()[b]->host(), before[b].data(), before[b].size());
             changed(*state()[b]);
         }
+        hand_over_placed();
         run_step(division, substeps);
     }
     ++frame_;

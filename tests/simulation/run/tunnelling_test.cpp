@@ -140,6 +140,24 @@ TEST_P(Tunnelling, WhatIsFastOnlyWithinAFrameIsStopped) {
     EXPECT_LT(2.0 * snapped.fastest, 0.5 * 0.02) << "its end would have said so";
 }
 
+/// What is slower is not swept: it needs no more than where it is.
+TEST(SweptObstacles, AreSweptFromAQuarterOfTheirWidthOn) {
+    const auto swept_from = [](const std::string& obstacle, double thickness, double speed) {
+        Scene scene = parse_scene(kSheet + obstacle, "test.toml");
+        scene.obstacles[0].thickness = thickness;
+        if (scene.obstacles[0].motion) scene.obstacles[0].motion->velocity = {0.0, -speed, 0.0};
+        Warnings warnings;
+        Model model(scene, warnings);
+        model.place(0.0);
+        return std::sqrt(static_cast<double>(model.obstacles->placements()[7].z));
+    };
+    const std::string plane = "[[obstacle]]\nshape = \"plane\"\npoint = [0.0, -1.0, 0.0]\n";
+    EXPECT_NEAR(swept_from(kPlate, 0.01, 0.0), 0.0005 + 0.01, 1e-7);
+    EXPECT_NEAR(swept_from(kBall, 0.01, 5.0), 0.15 + 0.01 - 5.0 / 240.0, 1e-6);
+    EXPECT_EQ(swept_from(kBall, 0.01, 50.0), 0.0) << "what is at rest may be passed";
+    EXPECT_GT(swept_from(plane, 0.01, 0.0), 1e15) << "of a plane nothing is passed";
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Tunnelling, kMethods, name_of_method);
 
 Warnings warnings_of(const std::string& text) {
