@@ -31,7 +31,7 @@ typedef struct {
 ///   3..5  rows of the map from the local frame to the world at the substep's start
 ///   6     dimensions [m], as the shape reads them
 ///   7     thickness [m], friction coefficient, square of the way from which on a vertex is swept
-///         [m^2] (the largest number: none is), 0
+///         [m^2] (the largest number: none is), its shape's number (shapes.h)
 #define WEFT_OBSTACLE_ROWS 8
 
 /// The distance is convex along a straight way, so Newton's method comes to the first contact from

@@ -11,4 +11,10 @@
 
 #define WEFT_FOR_EACH_OBSTACLE_SHAPE(visit) visit(sphere) visit(plane) visit(capsule) visit(box)
 
+// Their numbers in obstacles' rows.
+#define WEFT_OBSTACLE_sphere 0.0f
+#define WEFT_OBSTACLE_plane 1.0f
+#define WEFT_OBSTACLE_capsule 2.0f
+#define WEFT_OBSTACLE_box 3.0f
+
 #endif

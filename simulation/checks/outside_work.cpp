@@ -83,9 +83,14 @@ private:
             const Vec3 local = to.to_local(place);
             if (distance_to_local(obstacle, local) > near) return;
             by_[v] = place - from.to_world(local);
+            if (!obstacle.friction)
+                by_[v] = along(to.axes * normal_at_local(obstacle, local), by_[v]);
             led_[v] = Led::kByObstacle;
         });
     }
+
+    /// What does not rub pushes along its normal only.
+    static Vec3 along(Vec3 normal, Vec3 way) { return dot(normal, way) * normal; }
 
     /// What is pushed is lifted.
     double of_vertices(Vec3 gravity) const {

@@ -20,6 +20,7 @@ struct Alarm {
     Kind kind;
     std::string what;
     std::optional<int> vertex;  ///< new order
+    std::string remedy = {};    ///< of a doubt; empty: steps that are solved farther
 };
 
 /// Looks at every state between two frames: whether it is one, how far its edges are strained, and

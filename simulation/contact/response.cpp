@@ -150,6 +150,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       cut_("contact.cut", model.positions->count()),
       cut_counts_("contact.cut_counts", 2 * model.positions->count()),
       cut_ways_("contact.cut_ways", model.positions->count()),
+      insides_(model.obstacles ? std::make_unique<Insides>(model) : nullptr),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), sticking_.get(), fill_kind_ + 1) {
     // Inside of bodies there is nothing to be filled.
@@ -381,6 +382,7 @@ void ContactResponse::add_count(std::vector<Launch>& launches) {
                               cut_counts_, cut_ways_, model_.vertex_count(), kInstance));
     launches.push_back(launch(kernels::find_unquiet, model_.vertices(), *model_.positions, anchors_,
                               goals_, quiet_, motion_.unquiet(), kInstance));
+    if (insides_) insides_->add_launch(launches, cut_);
 }
 
 void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last) {
@@ -392,6 +394,7 @@ void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last
         .updates(cut_counts_, first, last)
         .updates(cut_counts_, all + first, all + last)
         .updates(cut_ways_, first, last);
+    if (insides_) insides_->add_accesses(task, first, last);
 }
 
 std::string ContactResponse::trouble() const {

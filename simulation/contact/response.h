@@ -12,6 +12,7 @@
 #include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
 #include "simulation/contact/frozen.h"
+#include "simulation/contact/insides.h"
 #include "simulation/contact/pairs.h"
 #include "simulation/contact/sticking.h"
 #include "simulation/model/model.h"
@@ -83,11 +84,15 @@ public:
     Buffer<int>& cut_counts() { return cut_counts_; }
     Buffer<float>& cut_ways() { return cut_ways_; }
     Buffer<float>& nearest() { return nearest_; }
+    /// Null: there are no convex obstacles to be inside of.
+    Insides* insides() { return insides_.get(); }
     // Of a frame of which the host has these:
     /// what is to be told; empty: nothing;
     std::string trouble() const;
-    /// what there was to do.
+    /// what there was to do;
     ContactRecord account();
+    /// with how many substeps inertia would lead nobody so far that it is taken back.
+    int substeps_wanted() const;
 
     /// [vertices] whom the last truncation took back: not 0.
     Buffer<int>& cut() { return cut_; }
@@ -124,7 +129,6 @@ private:
     Launch truncation(Buffer<float4>& positions, float soft, int all_from);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
-    int substeps_wanted() const;
 
     Model& model_;
     float range_, floor_;
@@ -147,6 +151,7 @@ private:
     Buffer<float> least_, nearest_;
     Buffer<int> cut_, cut_counts_;
     Buffer<float> cut_ways_;
+    std::unique_ptr<Insides> insides_;  ///< without convex obstacles: none
     Buffer<float4> snapshots_;
     TaskBody fill_;
     std::size_t showing_ = 0;  ///< where its launches show the start

@@ -50,6 +50,15 @@ std::vector<Stay> stays_of(const std::vector<Obstacle>& obstacles, double start,
     return stays;
 }
 
+/// Its number in the kernels' rows.
+float number_of(const std::string& shape) {
+#define WEFT_TRY_SHAPE(name) \
+    if (shape == #name) return WEFT_OBSTACLE_##name;
+    WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
+#undef WEFT_TRY_SHAPE
+    throw std::logic_error("obstacle shape '" + shape + "' has no number");
+}
+
 /// From which way of a vertex on, squared [m^2], it may be past the middle of the obstacle, where
 /// it would be pushed out on the wrong side, or not at all. Of a plane it never is.
 double swept_from(const Obstacle& obstacle, const Stay& stay) {
@@ -64,8 +73,9 @@ void write_placement(float4* rows, const Obstacle& obstacle, const Stay& stay) {
     write_rows(rows + 3, stay.before.axes, stay.before.origin);
     const auto& d = obstacle.dimensions;
     rows[6] = to_float4({d[0], d[1], d[2]}, d[3]);
-    rows[7] = to_float4(
-        {obstacle.thickness, obstacle.friction.value_or(0.0), swept_from(obstacle, stay)});
+    rows[7] =
+        to_float4({obstacle.thickness, obstacle.friction.value_or(0.0), swept_from(obstacle, stay)},
+                  static_cast<double>(number_of(obstacle.shape)));
 }
 
 kernels::nearness near_obstacle(const Obstacle& obstacle, Vec3 local) {
@@ -110,6 +120,12 @@ double distance_to(const Obstacle& obstacle, Vec3 point, double time) {
 
 double distance_to_local(const Obstacle& obstacle, Vec3 local) {
     return static_cast<double>(near_obstacle(obstacle, local).distance);
+}
+
+Vec3 normal_at_local(const Obstacle& obstacle, Vec3 local) {
+    const kernels::real3 normal = near_obstacle(obstacle, local).normal;
+    return {static_cast<double>(normal.x), static_cast<double>(normal.y),
+            static_cast<double>(normal.z)};
 }
 
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,

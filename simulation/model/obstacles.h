@@ -23,6 +23,7 @@ public:
     Buffer<float4>& placements() { return placements_; }
     const Buffer<float4>& placements() const { return placements_; }
 
+    int count() const { return static_cast<int>(obstacles_.size()); }
     bool have_friction() const;
     /// One launch per obstacle that pushes all vertices out of it.
     /// vertices: one segment per strip
@@ -31,8 +32,6 @@ public:
                       const PushedTargets& pushed);
 
 private:
-    int count() const { return static_cast<int>(obstacles_.size()); }
-
     std::vector<Obstacle> obstacles_;
     int substeps_;
     Buffer<float4> placements_;  ///< [substep][obstacle][WEFT_OBSTACLE_ROWS]
@@ -42,5 +41,7 @@ private:
 double distance_to(const Obstacle& obstacle, Vec3 point, double time);
 /// The same for a point of its own frame.
 double distance_to_local(const Obstacle& obstacle, Vec3 local);
+/// Outwards from the surface, of length 1, in its own frame.
+Vec3 normal_at_local(const Obstacle& obstacle, Vec3 local);
 
 }  // namespace weft

@@ -40,7 +40,9 @@ FrameJudge::FrameJudge(LiveModel& live, OnTrouble on_trouble, OnCrossing on_cros
     if (on_trouble == OnTrouble::kIgnore) return;
     const Model& model = live.model();
     samples_.emplace(model, threads);
-    if (model.scene.contact) crossings_.emplace(model, on_crossing == OnCrossing::kWarn);
+    if (!model.scene.contact) return;
+    crossings_.emplace(model, on_crossing == OnCrossing::kWarn);
+    if (!model.convex_obstacles.empty()) inside_.emplace();
 }
 
 Verdict FrameJudge::judge(const Ran& ran, FrameRecord& record) {
@@ -57,6 +59,8 @@ Verdict FrameJudge::judge(const Ran& ran, FrameRecord& record) {
         const Verdict verdict = judge(ran, look, *estimated);
         if (verdict.kind != Verdict::Kind::kKeep) return verdict;
     }
+    const Verdict verdict = judge_obstacles(ran);
+    if (verdict.kind != Verdict::Kind::kKeep) return verdict;
     if (samples_) samples_->note(model, look.strain.rms);
     watch_.accept(look, look.alarm.has_value());
     look_at_contact(ran, record);
@@ -80,10 +84,20 @@ Verdict FrameJudge::judge(const Ran& ran, const Alarm& alarm) {
         alarm.kind == Alarm::Kind::kDoubt ||
         (alarm.kind == Alarm::Kind::kExplosion && on_trouble_ == OnTrouble::kReport);
     if (!is_told) return {Verdict::Kind::kStop, {}};
-    troubles_.tell(
-        ran.frame, alarm,
-        "the steps are not solved far enough, and what is seen is not believable: " + advice());
+    const std::string unsolved =
+        "the steps are not solved far enough, and what is seen is not believable: " + advice();
+    troubles_.tell(ran.frame, alarm, alarm.remedy.empty() ? unsolved : alarm.remedy);
     return {};
+}
+
+/// By what contact has left inside obstacles.
+Verdict FrameJudge::judge_obstacles(const Ran& ran) {
+    if (!inside_) return {};
+    const auto alarm = inside_->look(live_.model(), *fetch_contact());
+    if (!alarm) return {};
+    const Verdict verdict = judge(ran, *alarm);
+    if (verdict.kind == Verdict::Kind::kKeep) inside_->told();
+    return verdict;
 }
 
 std::string FrameJudge::advice() const {
@@ -132,13 +146,24 @@ void FrameJudge::tell_of_tolerance(int frame, double error) {
                     advise_tolerance(scene, samples_->last())));
 }
 
-/// What is not guaranteed is told, where it happens.
-void FrameJudge::look_at_contact(const Ran& ran, FrameRecord& record) {
+/// With what the frame tells of itself; null: there is none.
+ContactResponse* FrameJudge::fetch_contact() {
     ContactResponse* contact = live_.contact();
-    if (contact == nullptr) return;
+    if (contact == nullptr) return nullptr;
     live_.executor().fetch(contact->cut_counts());
     live_.executor().fetch(contact->cut_ways());
     live_.executor().fetch(contact->nearest());
+    if (Insides* insides = contact->insides()) {
+        live_.executor().fetch(insides->depths());
+        live_.executor().fetch(insides->obstacles());
+    }
+    return contact;
+}
+
+/// What is not guaranteed is told, where it happens.
+void FrameJudge::look_at_contact(const Ran& ran, FrameRecord& record) {
+    ContactResponse* contact = fetch_contact();
+    if (contact == nullptr) return;
     record.contacts = {contact->account()};
     record.contacts.front().redone = ran.redone;
     const std::string what = contact->trouble();

@@ -8,6 +8,7 @@
 #include "runtime/trace/records.h"
 #include "simulation/checks/crossing_checks.h"
 #include "simulation/checks/error_samples.h"
+#include "simulation/checks/inside_checks.h"
 #include "simulation/checks/start_contacts.h"
 #include "simulation/checks/watch.h"
 #include "simulation/output/checkpoint.h"
@@ -65,8 +66,10 @@ public:
 private:
     Verdict judge(const Ran& ran, const Alarm& alarm);
     Verdict judge(const Ran& ran, const Watch::Look& look, const StepEstimate& estimate);
+    Verdict judge_obstacles(const Ran& ran);
     std::optional<StepEstimate> estimate();
     void tell_of_tolerance(int frame, double error);
+    ContactResponse* fetch_contact();
     void look_at_contact(const Ran& ran, FrameRecord& record);
     void look_at_crossings(int frame);
 
@@ -76,6 +79,7 @@ private:
     Watch watch_;
     std::optional<ErrorSamples> samples_;      ///< none: nothing is estimated
     std::optional<CrossingChecks> crossings_;  ///< none: no contact, or energies are not looked at
+    std::optional<InsideChecks> inside_;       ///< likewise, or no obstacle to be inside of
     Troubles troubles_;
     bool tolerance_told_ = false;
 };

@@ -1,7 +1,7 @@
 // Every shape has kernels of the same signature, so a new shape is tested without another line
 // here.
 
-#include "kernels/obstacles/contact.h"
+#include "kernels/obstacles/inside.h"
 
 #include <limits>
 
@@ -34,7 +34,8 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
         const float swept_from[] = {0.0f, 0.25f, kNever};  // all, some, and none
         const int which = c.flavour == Flavour::kRandom ? c.random.integer(0, 2) : 0;
         const float friction = c.random.integer(0, 2) == 0 ? 0.0f : 0.3f;
-        rows[7] = {0.01f, friction, swept_from[which], 0.0f};
+        const auto shape = static_cast<float>(c.random.integer(0, 3));
+        rows[7] = {0.01f, friction, swept_from[which], shape};
     }
 }
 
@@ -58,6 +59,23 @@ Buffer<float4>& add_targets(KernelCase& c) {
     return targets;
 }
 
+/// Of vertices that have moved, some of them held.
+struct Moved {
+    Buffer<float4>&positions, &previous;
+};
+
+Moved add_moved(KernelCase& c) {
+    Moved moved{c.add<float4>("positions", c.items), c.add<float4>("previous", c.items)};
+    scatter(c, moved.positions);
+    for (std::size_t v = 0; v < moved.positions.count(); ++v) {
+        const float4 way = c.random.point(c.flavour == Flavour::kRandom ? 0.9f : 0.0f);
+        float4& x = moved.positions[v];
+        moved.previous[v] = {x.x + way.x, x.y + way.y, x.z + way.z, 0.0f};
+        x.w = c.random.integer(0, 5) == 0 ? 0.0f : 1.0f;
+    }
+    return moved;
+}
+
 /// Behind the arguments of its own: how many obstacles there are, which one, and the substep.
 void finish(KernelCase& c, const kernels::KernelInfo& kernel) {
     Argument substep;
@@ -72,30 +90,39 @@ void finish(KernelCase& c, const kernels::KernelInfo& kernel) {
 }
 
 void push_case(KernelCase& c, Buffer<float4>& obstacles) {
-    auto& positions = c.add<float4>("positions", c.items);
-    auto& previous = c.add<float4>("previous", c.items);
+    const Moved moved = add_moved(c);
     auto& targets = add_targets(c);
-    scatter(c, positions);
-    for (std::size_t v = 0; v < positions.count(); ++v) {
-        const float moved = c.flavour == Flavour::kRandom ? 0.9f : 0.0f;
-        const float4 way = c.random.point(moved);
-        const float4& x = positions[v];
-        previous[v] = {x.x + way.x, x.y + way.y, x.z + way.z, 0.0f};
-        positions[v].w = c.random.integer(0, 5) == 0 ? 0.0f : 1.0f;
-    }
     Argument told;
     told.integer = c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST);
-    c.launch.arguments = {{&positions}, {&previous}, {&targets}, {&obstacles}, told};
+    c.launch.arguments = {{&moved.positions}, {&moved.previous}, {&targets}, {&obstacles}, told};
+}
+
+/// Contact has taken back a quarter of the vertices.
+void inside_case(KernelCase& c, Buffer<float4>& obstacles) {
+    const Moved moved = add_moved(c);
+    auto& cut = c.add<int>("cut", c.items);
+    for (int& one : cut.span()) one = std::max(0, c.random.integer(-5, 2));
+    auto& depths = c.add<float>("depths", c.items);
+    for (float& depth : depths.span()) depth = std::max(0.0f, c.random.real(-0.2f, 0.2f));
+    auto& insides = c.add<int>("insides", c.items);
+    for (int& inside : insides.span()) inside = c.random.integer(0, kObstacles - 1);
+    c.launch = launch(kernels::find_inside, c.segments, moved.positions, moved.previous, obstacles,
+                      cut, depths, insides, kObstacles, kInstance);
 }
 
 }  // namespace
 
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed) {
-    if (!kernel.starts_with("push_out_of_")) return nullptr;
+    const bool pushes = kernel.starts_with("push_out_of_");
+    if (!pushes && kernel != "find_inside") return nullptr;
     auto made = std::make_unique<KernelCase>(items, flavour, seed);
     auto& obstacles = made->add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
     place(*made, obstacles);
+    if (!pushes) {
+        inside_case(*made, obstacles);
+        return made;
+    }
     push_case(*made, obstacles);
     finish(*made, kernels::kernel_info(std::string(kernel)));
     return made;

@@ -426,6 +426,27 @@ motion = { velocity = [0.0, 0.5, 0.0] }
     EXPECT_NEAR(frames.back().work - frames[10].work, lifted, 0.05 * lifted);
 }
 
+/// What slides along under cloth without rubbing it does nothing, however the cloth is pulled.
+TEST_P(EveryAccount, BooksNoWorkOfWhatSlidesWithoutFriction) {
+    const auto frames = run(scene_of(R"(
+[scene]
+frames = 10
+dt = 0.016666667
+substeps = 10
+gravity = [5.0, -9.81, 0.0]
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [9, 9] }
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+pins = { edges = ["x-"] }
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+motion = { velocity = [20.0, 0.0, 0.0] }
+)"));
+    for (const FrameRecord& frame : frames) EXPECT_NEAR(frame.work, 0.0, 1e-9) << frame.frame;
+}
+
 /// Gravity that turns upside down does work where it stands.
 TEST_P(EveryAccount, BooksTheWorkOfGravityThatChanges) {
     Scene scene = scene_of(R"(

@@ -35,6 +35,27 @@ radius = 0.3
 motion = { velocity = [0.0, -1000.0, 0.0] }
 )";
 
+// Too fast for the sheet's contact: each vertex waits for its neighbours.
+const std::string kFastBall = R"(
+[contact]
+[[obstacle]]
+name = "fast"
+shape = "sphere"
+center = [0.0, 0.5, 0.0]
+radius = 0.2
+motion = { velocity = [0.0, -80.0, 0.0] }
+)";
+const std::string kFastBar = R"(
+[contact]
+[[obstacle]]
+name = "fast"
+shape = "capsule"
+start = [-0.1, 0.4, 0.0]
+end = [0.1, 0.4, 0.1]
+radius = 0.05
+motion = { velocity = [0.0, -80.0, 0.0] }
+)";
+
 const std::string kPlate = R"(
 [[obstacle]]
 shape = "box"
@@ -92,6 +113,35 @@ protected:
     }
 };
 
+struct OneFrame {
+    std::vector<std::string> told;  ///< of vertices that an obstacle has come through
+    int behind = 0;                 ///< of the sheet's middle: vertices behind the ball
+};
+
+OneFrame one_frame_of(const Scene& scene, OnTrouble on_trouble) {
+    Warnings warnings;
+    SimulationOptions options;
+    options.devices = "cpu/1";
+    options.calibrate = false;
+    options.plan = PlanKind::kSingle;
+    options.on_trouble = on_trouble;
+    Simulation simulation(scene, options, warnings);
+    const std::vector<float> start = simulation.positions();
+    simulation.advance();
+    const std::vector<float> end = simulation.positions();
+    OneFrame frame;
+    for (int v = 0; v < simulation.model().vertex_count(); ++v) {
+        const bool is_middle = length(at(start, v)) < 0.1;
+        frame.behind += is_middle && at(end, v).y > 0.5 - 80.0 * scene.dt ? 1 : 0;
+    }
+    for (const Trouble& trouble : simulation.troubles()) {
+        if (trouble.what.find("obstacle 'fast' has come") != std::string::npos) {
+            frame.told.push_back(trouble.what);
+        }
+    }
+    return frame;
+}
+
 /// The least distance from the origin on the straight way between two points.
 double least_distance(Vec3 a, Vec3 b) {
     const Vec3 way = b - a;
@@ -120,6 +170,34 @@ TEST_P(Tunnelling, SphereAt1000MetresPerSecondFliesThroughNoVertex) {
         before = now;
     }
     EXPECT_GT(fastest, 499.0) << "it was hit";
+}
+
+TEST_P(Tunnelling, WhatAnObstacleComesThroughIsTold) {
+    const OneFrame frame = one_frame_of(scene_of(kSheet + kFastBall), OnTrouble::kReport);
+    EXPECT_GT(frame.behind, 5) << "nothing to be seen here";
+    ASSERT_EQ(frame.told.size(), 1U);
+    EXPECT_NE(frame.told.front().find(" of 400 vertices of cloth 'cloth0' (the first: "),
+              std::string::npos)
+        << frame.told.front();
+    EXPECT_NE(frame.told.front().find(" substeps would do"), std::string::npos);
+}
+
+TEST_P(Tunnelling, NothingIsToldOfObstaclesThatCarryWhatTheyMeet) {
+    Scene scene = scene_of(kSheet + kFastBall);
+    scene.substeps = 80;
+    const OneFrame frame = one_frame_of(scene, OnTrouble::kReport);
+    EXPECT_EQ(frame.told, std::vector<std::string>{});
+}
+
+/// Steps in which strain says nothing yet.
+TEST_P(Tunnelling, WhatAnObstacleComesThroughIsDoneAgainWithSmallerSteps) {
+    Scene scene = scene_of(kSheet + kFastBar);
+    scene.substeps = 8;
+    const OneFrame frame = one_frame_of(scene, OnTrouble::kHalve);
+    ASSERT_EQ(frame.told.size(), 1U);
+    EXPECT_NE(frame.told.front().find("done again, and all that follows, with 16 substeps"),
+              std::string::npos)
+        << frame.told.front();
 }
 
 TEST_P(Tunnelling, ThinPlateStopsWhatFallsAt100MetresPerSecond) {
