@@ -4,6 +4,7 @@
 
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -11,16 +12,6 @@ namespace {
 
 class PinWork : public EverySolver {
 protected:
-    static Simulation simulation_of(const Scene& scene, OnTrouble on_trouble) {
-        Warnings warnings;
-        SimulationOptions options;
-        options.devices = "cpu/1";
-        options.calibrate = false;
-        options.plan = PlanKind::kSingle;
-        options.on_trouble = on_trouble;
-        return {scene, options, warnings};
-    }
-
     static std::vector<FrameRecord> run(const Scene& scene) {
         Simulation simulation = simulation_of(scene, OnTrouble::kStop);
         std::vector<FrameRecord> frames;

@@ -6,6 +6,7 @@
 
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 
 namespace weft::test {
 namespace {
@@ -37,12 +38,7 @@ keyframes = [
 
 std::vector<float> end_of(const std::string& solver) {
     const Scene scene = parse_scene(kSkirt + solver, "test.toml");
-    SimulationOptions options;
-    options.devices = "cpu/1";
-    options.calibrate = false;
-    options.plan = PlanKind::kSingle;
-    Warnings warnings;
-    Simulation simulation(scene, options, warnings);
+    Simulation simulation = simulation_of(scene);
     while (simulation.frame() < scene.frames) simulation.advance();
     EXPECT_TRUE(simulation.troubles().empty());
     return simulation.positions();

@@ -8,6 +8,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/touching_sheets.h"
 
 namespace weft::test {
@@ -32,15 +33,6 @@ pins = { corners = ["x-z-", "x+z-"] }
 }
 
 const std::string kReachable = "method = \"vbd\"\niterations = 256\ntolerance = 1.0e-2\n";
-
-Simulation simulation_of(const Scene& scene, const std::string& devices = "cpu/1") {
-    Warnings warnings;
-    SimulationOptions options;
-    options.devices = devices;
-    options.calibrate = false;
-    options.plan = PlanKind::kSingle;
-    return {scene, options, warnings};
-}
 
 TEST(Tolerance, IsKeptWithFewerIterationsThanTheMost) {
     const Scene scene = swinging(kReachable);
@@ -108,7 +100,7 @@ TEST(Tolerance, SaysWhatWouldReachItInContact) {
 }
 
 std::string hash_on(const std::string& devices) {
-    Simulation simulation = simulation_of(swinging(kReachable), devices);
+    Simulation simulation = simulation_of(swinging(kReachable), OnTrouble::kStop, devices);
     while (simulation.frame() < 24) simulation.advance();
     return simulation.hash();
 }

@@ -6,6 +6,7 @@
 #include "runtime/opencl/opencl_device.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 #include "tests/simulation/run/test_scenes.h"
 
@@ -29,17 +30,6 @@ damping = 0.1
 [cloth.pins]
 corners = ["x-z-", "x+z-"]
 )";
-
-Simulation simulation_of(const Scene& scene, OnTrouble on_trouble,
-                         const std::string& devices = "cpu/1") {
-    Warnings warnings;
-    SimulationOptions options;
-    options.devices = devices;
-    options.calibrate = false;
-    options.plan = PlanKind::kSingle;
-    options.on_trouble = on_trouble;
-    return {scene, options, warnings};
-}
 
 Scene too_long() { return parse_scene(kTooLong, "test.toml"); }
 

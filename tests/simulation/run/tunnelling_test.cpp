@@ -8,6 +8,7 @@
 #include "simulation/families/convert.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -119,13 +120,7 @@ struct OneFrame {
 };
 
 OneFrame one_frame_of(const Scene& scene, OnTrouble on_trouble) {
-    Warnings warnings;
-    SimulationOptions options;
-    options.devices = "cpu/1";
-    options.calibrate = false;
-    options.plan = PlanKind::kSingle;
-    options.on_trouble = on_trouble;
-    Simulation simulation(scene, options, warnings);
+    Simulation simulation = simulation_of(scene, on_trouble);
     const std::vector<float> start = simulation.positions();
     simulation.advance();
     const std::vector<float> end = simulation.positions();

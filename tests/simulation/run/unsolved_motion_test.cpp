@@ -7,6 +7,7 @@
 #include "simulation/model/model.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -14,16 +15,6 @@ namespace {
 
 class UnsolvedMotion : public EverySolver {
 protected:
-    static Simulation simulation_of(const Scene& scene, OnTrouble on_trouble) {
-        Warnings warnings;
-        SimulationOptions options;
-        options.devices = "cpu/1";
-        options.calibrate = false;
-        options.plan = PlanKind::kSingle;
-        options.on_trouble = on_trouble;
-        return {scene, options, warnings};
-    }
-
     /// By the end of the run.
     static std::string said_by(Simulation&& simulation) {
         while (simulation.frame() < simulation.model().scene.frames) simulation.advance();
