@@ -11,7 +11,8 @@
 # Give every header of yours that a kernel includes, too. With ROOT, messages of OpenCL compilers
 # name the headers from that folder on.
 #
-# Kernels are compiled with strict arithmetic and -O3, whatever the target's other sources are.
+# Kernels are compiled with strict arithmetic and -O3, whatever the target's other sources are; with
+# sanitizers by -O1, as what they add to packs takes half an hour to compile otherwise.
 
 include_guard()
 
@@ -31,13 +32,18 @@ function(weft_add_kernels target)
   # -fno-math-errno: square roots become instructions; it changes no bit of a result.
   # -Wno-psabi: packs never cross a file's border, so how they would be passed does not matter.
   set(strict -O3 -fno-fast-math -ffp-contract=off -fno-math-errno)
+  if(WEFT_SANITIZE)
+    list(APPEND strict -O1)
+  endif()
   set(anchors "")
   _weft_kernel_sources(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
   _weft_packed_sources(packed kPacked 8 "")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     _weft_packed_sources(packed_avx2 kPackedAvx2 8 "-mavx2")
-    _weft_packed_sources(packed_avx512 kPackedAvx512 16
-                         "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
+    if(NOT WEFT_SANITIZE)     # whose code that runs when a program starts would need AVX-512, too
+      _weft_packed_sources(packed_avx512 kPackedAvx512 16
+                           "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw")
+    endif()
   endif()
   _weft_kernel_text()
 
