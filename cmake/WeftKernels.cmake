@@ -31,10 +31,11 @@ function(weft_add_kernels target)
 
   # -fno-math-errno: square roots become instructions; it changes no bit of a result.
   # -Wno-psabi: packs never cross a file's border, so how they would be passed does not matter.
-  set(strict -O3 -fno-fast-math -ffp-contract=off -fno-math-errno)
+  set(level -O3)
   if(WEFT_SANITIZE)
-    list(APPEND strict -O1)
+    set(level -O1)
   endif()
+  set(strict ${level} -fno-fast-math -ffp-contract=off -fno-math-errno)
   set(anchors "")
   _weft_kernel_sources(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
   _weft_packed_sources(packed kPacked 8 "")

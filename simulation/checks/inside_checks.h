@@ -11,7 +11,7 @@ namespace weft {
 /// fast for its substeps passes through cloth so.
 class InsideChecks {
 public:
-    /// Of a frame; the host has what its contact tells of itself.
+    /// Of a frame; the host has the contact's insides and cuts.
     std::optional<Alarm> look(const Model& model, ContactResponse& contact);
     /// The last alarm was told, and the run goes on: only what is plainly deeper is another one.
     void told() { told_ = deepest_; }

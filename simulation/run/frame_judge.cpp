@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -86,14 +87,19 @@ Verdict FrameJudge::judge(const Ran& ran, const Alarm& alarm) {
     if (!is_told) return {Verdict::Kind::kStop, {}};
     const std::string unsolved =
         "the steps are not solved far enough, and what is seen is not believable: " + advice();
-    troubles_.tell(ran.frame, alarm, alarm.remedy.empty() ? unsolved : alarm.remedy);
+    troubles_.tell(ran.frame, alarm, alarm.remedy.empty() ? unsolved : given_up() + alarm.remedy);
     return {};
 }
 
 /// By what contact has left inside obstacles.
 Verdict FrameJudge::judge_obstacles(const Ran& ran) {
     if (!inside_) return {};
-    const auto alarm = inside_->look(live_.model(), *fetch_contact());
+    ContactResponse* contact = fetch_contact();
+    const auto cuts = contact->cut_counts().span();
+    if (std::ranges::none_of(cuts, [](int count) { return count > 0; })) return {};
+    live_.executor().fetch(contact->insides()->depths());
+    live_.executor().fetch(contact->insides()->obstacles());
+    const auto alarm = inside_->look(live_.model(), *contact);
     if (!alarm) return {};
     const Verdict verdict = judge(ran, *alarm);
     if (verdict.kind == Verdict::Kind::kKeep) inside_->told();
@@ -101,15 +107,17 @@ Verdict FrameJudge::judge_obstacles(const Ran& ran) {
 }
 
 std::string FrameJudge::advice() const {
-    std::string given_up;
-    if (on_trouble_ == OnTrouble::kHalve) {
-        const Scene& scene = live_.model().scene;
-        given_up = fmt::format(
-            "--on-trouble halve has given up, with {} substeps, {} times as many as at first; ",
-            scene.substeps, choice_.refinement(scene));
-    }
-    return given_up +
+    return given_up() +
            "more substeps or iterations, or another solver, may help (docs/stability.md)";
+}
+
+/// Where there are no smaller steps to be had; else empty.
+std::string FrameJudge::given_up() const {
+    if (on_trouble_ != OnTrouble::kHalve) return {};
+    const Scene& scene = live_.model().scene;
+    return fmt::format(
+        "--on-trouble halve has given up, with {} substeps, {} times as many as at first; ",
+        scene.substeps, choice_.refinement(scene));
 }
 
 /// By how far its last substep was solved.
@@ -153,10 +161,6 @@ ContactResponse* FrameJudge::fetch_contact() {
     live_.executor().fetch(contact->cut_counts());
     live_.executor().fetch(contact->cut_ways());
     live_.executor().fetch(contact->nearest());
-    if (Insides* insides = contact->insides()) {
-        live_.executor().fetch(insides->depths());
-        live_.executor().fetch(insides->obstacles());
-    }
     return contact;
 }
 

@@ -67,6 +67,7 @@ private:
     Verdict judge(const Ran& ran, const Alarm& alarm);
     Verdict judge(const Ran& ran, const Watch::Look& look, const StepEstimate& estimate);
     Verdict judge_obstacles(const Ran& ran);
+    std::string given_up() const;
     std::optional<StepEstimate> estimate();
     void tell_of_tolerance(int frame, double error);
     ContactResponse* fetch_contact();

@@ -13,6 +13,10 @@ namespace {
 constexpr int kObstacles = 2;
 constexpr int kSubsteps = 3;
 
+#define WEFT_NUMBER(name) WEFT_OBSTACLE_##name,
+constexpr float kShapes[] = {WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_NUMBER)};
+#undef WEFT_NUMBER
+
 /// Obstacle 1 in each substep: a placement that is a rotation (by a Pythagorean triple, so that its
 /// entries are nearly exact), and another one a little earlier.
 void place(KernelCase& c, Buffer<float4>& obstacles) {
@@ -34,7 +38,7 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
         const float swept_from[] = {0.0f, 0.25f, kNever};  // all, some, and none
         const int which = c.flavour == Flavour::kRandom ? c.random.integer(0, 2) : 0;
         const float friction = c.random.integer(0, 2) == 0 ? 0.0f : 0.3f;
-        const auto shape = static_cast<float>(c.random.integer(0, 3));
+        const float shape = kShapes[c.random.integer(0, std::size(kShapes) - 1)];
         rows[7] = {0.01f, friction, swept_from[which], shape};
     }
 }
