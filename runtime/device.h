@@ -89,7 +89,8 @@ public:
     /// for.
     virtual void times(std::vector<TaskTime>& tasks, std::vector<TimeSpan>& copies) = 0;
 
-    // Only for devices that do not work in the host's memory.
+    // Only for devices that do not work in the host's memory. Copies run in the order in which they
+    // were asked for, from flush() on.
     virtual Completion* to_device(BufferStorage&, ElementSpan,
                                   std::span<Completion* const> waits) = 0;
     virtual Completion* to_host(BufferStorage&, ElementSpan,

@@ -143,7 +143,9 @@ private:
     }
 
     void bring_all(const Task& task, int device, int instance, int number) {
+        const std::size_t known = copies_.size();
         for (const Access& access : task.accesses) bring(access, device, instance, number);
+        let_copies_run(known);
         for (const Access& access : task.accesses) {
             for (Completion* c : executor_.memory_.arrivals(access, memory_of(device))) {
                 waits_.push_back(c);
@@ -161,29 +163,35 @@ private:
             WEFT_ASSERT(missing.source != memory);
             const int from = missing.source.is_host() ? host_device() : missing.source.device();
             Copy copy{{instance, task, from, device, bytes}, {}};
-            Completion* arrival = missing.made_by;
+            std::vector<Completion*> after = missing.made_by;
             if (!missing.source.is_host()) {
-                arrival =
-                    move(access, missing.interval, span, from, MemoryId::host(), arrival, copy);
+                after = {move(access, missing.interval, span, from, MemoryId::host(), after, copy)};
             }
-            if (!memory.is_host()) {
-                arrival = move(access, missing.interval, span, device, memory, arrival, copy);
-            }
+            if (!memory.is_host())
+                move(access, missing.interval, span, device, memory, after, copy);
             copies_.push_back(std::move(copy));
         }
     }
 
     /// One hop between the host's memory and that of `owner`, to `memory`.
     Completion* move(const Access& access, Interval interval, const ElementSpan& span, int owner,
-                     MemoryId memory, Completion* after, Copy& copy) {
+                     MemoryId memory, std::span<Completion* const> after, Copy& copy) {
         WEFT_ASSERT(!memory_of(owner).is_host());
-        const std::vector<Completion*> waits(after == nullptr ? 0 : 1, after);
         DeviceStream& s = stream(owner);
-        Completion* arrival = memory.is_host() ? s.to_host(*access.buffer, span, waits)
-                                               : s.to_device(*access.buffer, span, waits);
+        Completion* arrival = memory.is_host() ? s.to_host(*access.buffer, span, after)
+                                               : s.to_device(*access.buffer, span, after);
         executor_.memory_.arrived(access, interval, memory, arrival);
         copy.hops.emplace_back(owner, hop_count_[static_cast<std::size_t>(owner)]++);
         return arrival;
+    }
+
+    /// From number `first` on.
+    void let_copies_run(std::size_t first) {
+        std::set<int> owners;
+        for (std::size_t c = first; c < copies_.size(); ++c) {
+            for (const auto& hop : copies_[c].hops) owners.insert(hop.first);
+        }
+        for (const int owner : owners) stream(owner).flush();
     }
 
     /// The device that works in the host's memory.

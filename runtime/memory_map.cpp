@@ -50,9 +50,20 @@ std::vector<MemoryMap::Missing> MemoryMap::missing(const Access& access, MemoryI
         const auto source =
             std::min_element(part.holders.begin(), part.holders.end(),
                              [](const Holder& a, const Holder& b) { return a.memory < b.memory; });
-        result.push_back({common, source->memory, source->since});
+        add(result, common, *source);
     }
     return result;
+}
+
+/// Longer than the last stretch, or a new one.
+void MemoryMap::add(std::vector<Missing>& list, Interval interval, const Holder& source) {
+    const bool goes_on = !list.empty() && list.back().source == source.memory &&
+                         list.back().interval.end == interval.begin;
+    if (!goes_on) list.push_back({{interval.begin, interval.begin}, source.memory, {}});
+    Missing& stretch = list.back();
+    stretch.interval.end = interval.end;
+    if (source.since == nullptr || std::ranges::count(stretch.made_by, source.since) > 0) return;
+    stretch.made_by.push_back(source.since);
 }
 
 std::vector<Completion*> MemoryMap::arrivals(const Access& access, MemoryId memory) const {
@@ -112,12 +123,11 @@ std::vector<std::pair<Access, MemoryMap::Missing>> MemoryMap::missing_at_host(
     const BufferStorage& buffer) const {
     std::vector<std::pair<Access, Missing>> result;
     for (const auto& [key, entry] : entries_) {
-        if (key.first != &buffer) continue;
-        for (const Part& part : entry.parts) {
-            const Access access{key.first, entry.segments, part.interval.begin, part.interval.end};
-            for (const Missing& missing : this->missing(access, MemoryId::host()))
-                result.emplace_back(access, missing);
-        }
+        if (key.first != &buffer || entry.parts.empty()) continue;
+        const Access all{key.first, entry.segments, entry.parts.front().interval.begin,
+                         entry.parts.back().interval.end};
+        for (Missing& missing : this->missing(all, MemoryId::host()))
+            result.emplace_back(all, std::move(missing));
     }
     return result;
 }

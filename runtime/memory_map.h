@@ -38,14 +38,15 @@ private:
 /// modified, shared, invalid). What is not noted is current everywhere.
 class MemoryMap {
 public:
-    /// A part that has to be copied, and the work that made its data.
+    /// A stretch that has to be copied, and the work that made its data.
     struct Missing {
         Interval interval;
         MemoryId source = MemoryId::host();
-        Completion* made_by = nullptr;  ///< null: long done
+        std::vector<Completion*> made_by;  ///< different ones; none: long done
     };
 
-    /// What of an access is not current in `memory`. Both reads and updates read.
+    /// What of an access is not current in `memory`, in as few stretches as their sources allow:
+    /// what a copy takes is mostly that there is one. Both reads and updates read.
     std::vector<Missing> missing(const Access& access, MemoryId memory) const;
     /// Copies into `memory`, perhaps still under way, that brought parts of the access.
     std::vector<Completion*> arrivals(const Access& access, MemoryId memory) const;
@@ -58,7 +59,7 @@ public:
     /// Forgets completions: everything that was under way is done.
     void settle();
 
-    /// Every part of the buffer that is not current in the host's memory, as accesses.
+    /// Everything of the buffer that is not current in the host's memory, each with its access.
     std::vector<std::pair<Access, Missing>> missing_at_host(const BufferStorage& buffer) const;
 
 private:
@@ -77,6 +78,7 @@ private:
         std::vector<Part> parts;  ///< disjoint, ascending
     };
 
+    static void add(std::vector<Missing>& list, Interval interval, const Holder& source);
     static bool is_held(const Part& part, MemoryId memory);
     static bool are_disjoint_and_ascending(const std::vector<Part>& parts);
     static Key key_of(const Access& access);

@@ -71,10 +71,12 @@ void CL_CALLBACK copy_mapped(cl_event, cl_int status, void* data) {
 }  // namespace
 
 OpenClStream::OpenClStream(const OpenClTarget& target, std::span<const TaskBody* const> bodies)
-    : target_(target) {
+    : target_(target), passed_on_(target.context) {
     try {
         queue_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
         copies_ = cl::CommandQueue(target.context, target.device, CL_QUEUE_PROFILING_ENABLE);
+        task_waits_ = QueueWaits(queue_());
+        copy_waits_ = QueueWaits(copies_());
         bind(bodies);
     } catch (const cl::Error& error) {
         throw opencl_error("preparing " + target_.info.name, error);
@@ -171,19 +173,23 @@ void OpenClStream::begin(double epoch) {
     running_.clear();
     copied_.clear();
     completions_.clear();
+    passed_on_.clear();
+    task_waits_.clear();
+    copy_waits_.clear();
     epoch_ = epoch;
     first_command_ = cl::Event();
 }
 
-Completion* OpenClStream::remember(const cl::Event& event) {
-    return &completions_.emplace_back(event);
+Completion* OpenClStream::remember(const cl::Event& event, const cl::CommandQueue& queue) {
+    return &completions_.emplace_back(event, queue(), static_cast<long>(completions_.size()) + 1);
 }
 
 Completion* OpenClStream::submit(const Submission& s) {
     try {
+        const std::vector<cl::Event> waits = task_waits_.next(s.waits, passed_on_);
         while (true) {
             try {
-                return submit_once(s);
+                return submit_once(s, waits);
             } catch (const cl::Error& error) {
                 if (!shows_large_groups(error)) throw;
                 use_smaller_groups();
@@ -194,13 +200,12 @@ Completion* OpenClStream::submit(const Submission& s) {
     }
 }
 
-Completion* OpenClStream::submit_once(const Submission& s) {
+Completion* OpenClStream::submit_once(const Submission& s, std::vector<cl::Event> waits) {
     const auto bound = std::find_if(bodies_.begin(), bodies_.end(),
                                     [&](const BoundBody& b) { return b.body == s.task->body; });
     if (bound == bodies_.end()) {
         throw Misuse("task body '" + s.task->body->name + "' is not part of this stream");
     }
-    std::vector<cl::Event> waits = events_for(target_.context, s.waits);
     Running running;
     running.instance = s.instance;
     running.task = s.number;
@@ -209,7 +214,7 @@ Completion* OpenClStream::submit_once(const Submission& s) {
     else
         run_strips(*bound, s, waits, running);
     running_.push_back(std::move(running));
-    return remember(running_.back().last);
+    return remember(running_.back().last, queue_);
 }
 
 /// Found out by trying: what drivers say of a kernel (CL_KERNEL_WORK_GROUP_SIZE) is less than what
@@ -304,8 +309,8 @@ void OpenClStream::note_first(const cl::Event& command, double enqueued) {
 
 void OpenClStream::flush() {
     try {
-        copies_.flush();
         queue_.flush();
+        copies_.flush();  // which wait for tasks
     } catch (const cl::Error& error) {
         throw opencl_error(target_.info.name, error);
     }
@@ -385,10 +390,8 @@ Completion* OpenClStream::copy(Direction direction, BufferStorage& buffer, Eleme
                                std::span<Completion* const> waits) {
     try {
         copied_.push_back(
-            enqueue_copy(direction, buffer, span, events_for(target_.context, waits)));
-        queue_.flush();  // what the copy waits for must be on its way
-        copies_.flush();
-        return remember(copied_.back().last);
+            enqueue_copy(direction, buffer, span, copy_waits_.next(waits, passed_on_)));
+        return remember(copied_.back().last, copies_);
     } catch (const cl::Error& error) {
         throw opencl_error(target_.info.name + ", copying '" + buffer.name() + "'", error);
     }

@@ -79,7 +79,7 @@ private:
     cl_uint set_launch_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     cl_uint set_segment_arguments(cl::Kernel& kernel, cl_uint index, const Launch& launch);
     void bind(std::span<const TaskBody* const> bodies);
-    Completion* submit_once(const Submission& submission);
+    Completion* submit_once(const Submission& submission, std::vector<cl::Event> waits);
     bool shows_large_groups(const cl::Error& error) const;
     void use_smaller_groups();
     void run_strips(BoundBody& bound, const Submission& s, std::vector<cl::Event>& waits,
@@ -96,14 +96,16 @@ private:
                           const std::vector<cl::Event>& waits);
     void note_first(const cl::Event& command, double enqueued);
     TimeSpan time_of(const Commands& commands, double offset) const;
-    Completion* remember(const cl::Event& event);
+    Completion* remember(const cl::Event& event, const cl::CommandQueue& queue);
 
     OpenClTarget target_;
     cl::CommandQueue queue_;
     cl::CommandQueue copies_;
+    PassedOn passed_on_;
+    QueueWaits task_waits_, copy_waits_;
     std::map<const BufferStorage*, DeviceBuffer> memory_;
     std::vector<BoundBody> bodies_;
-    std::deque<OpenClCompletion> completions_;
+    std::deque<OpenClCompletion> completions_;  ///< numbered in this order
     std::deque<Running> running_;
     std::deque<Commands> copied_;
     double epoch_ = 0.0;

@@ -115,7 +115,10 @@ private:
 
     void check(const Access& access, int buffer, MemoryId memory) {
         bool found[kUnits] = {};
+        MemoryId source_before = memory;
+        int end_before = -1;
         for (const auto& missing : map_.missing(access, memory)) {
+            std::set<Completion*> makers;
             for (int u = missing.interval.begin; u < missing.interval.end; ++u) {
                 ASSERT_TRUE(u >= access.begin && u < access.end && !found[u]);
                 found[u] = true;
@@ -124,8 +127,15 @@ private:
                 ASSERT_NE(source, holders.end()) << "unit " << u << " is not current at its source";
                 EXPECT_TRUE(missing.source.is_host() || !holders.contains(MemoryId::host()))
                     << "the host is nearer";
-                EXPECT_EQ(missing.made_by, source->second.since);
+                if (source->second.since != nullptr) makers.insert(source->second.since);
             }
+            EXPECT_EQ(missing.made_by.size(), makers.size()) << "some maker is named twice";
+            EXPECT_EQ(std::set<Completion*>(missing.made_by.begin(), missing.made_by.end()),
+                      makers);
+            EXPECT_FALSE(missing.source == source_before && missing.interval.begin == end_before)
+                << "two stretches where one would do";
+            source_before = missing.source;
+            end_before = missing.interval.end;
         }
         std::set<Completion*> expected;
         for (int u = access.begin; u < access.end; ++u) {
