@@ -2,15 +2,30 @@
 
 namespace weft::scheduler {
 
-CostDrift::CostDrift(std::uint32_t kinds, std::uint32_t devices)
-    : kinds_(kinds), devices_(devices), then_(std::size_t{kinds} * devices * devices) {}
+namespace {
+/// Frames in use behind which a fit says what is, and no longer what was before.
+constexpr std::uint32_t kSettled = 4;
+}  // namespace
 
+CostDrift::CostDrift(std::uint32_t kinds, std::uint32_t devices)
+    : kinds_(kinds),
+      devices_(devices),
+      then_(std::size_t{kinds} * devices * devices),
+      seen_(std::size_t{kinds} * devices, 0) {}
+
+/// Of another device that was out of use at the time, or had just begun, the first that is known
+/// for sure behind it: until then, what it is seen to take is learnt, and has not changed.
 void CostDrift::note(const CostModel& costs) {
     for (std::uint32_t kind = 0; kind < kinds_; ++kind) {
+        std::uint32_t* const seen = &seen_[std::size_t{kind} * devices_];
         for (std::uint32_t device = 0; device < devices_; ++device) {
-            if (costs.frames_unobserved(kind, device) > 1) continue;
+            seen[device] = costs.frames_unobserved(kind, device) > 1 ? 0 : seen[device] + 1;
+        }
+        for (std::uint32_t device = 0; device < devices_; ++device) {
             for (std::uint32_t other = 0; other < devices_; ++other) {
-                then_[index(kind, device, other)] = costs.fit(kind, other).cost;
+                LinearCost& then = then_[index(kind, device, other)];
+                if (seen[device] > 0) then = {};
+                if (then(1.0) == 0.0 && seen[other] >= kSettled) then = costs.fit(kind, other).cost;
             }
         }
     }

@@ -29,8 +29,10 @@ private:
     }
 
     std::uint32_t kinds_, devices_;
-    /// [kind][device][other] the other's cost when the kind was last observed on the device.
+    /// [kind][device][other] the other's cost when the kind was last observed on the device; 0: it
+    /// is not known.
     std::vector<LinearCost> then_;
+    std::vector<std::uint32_t> seen_;  ///< [kind][device] frames in a row in which it was observed
 };
 
 }  // namespace weft::scheduler

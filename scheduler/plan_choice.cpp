@@ -44,6 +44,10 @@ void PlanChoice::measured(std::uint32_t alternative, double planned, double seco
     update_median(history);
 }
 
+void PlanChoice::given_up(std::uint32_t alternative, double planned, double seconds) {
+    if (planned > 0.0) history_[alternative] = {{seconds / planned}, seconds / planned};
+}
+
 void PlanChoice::update_median(History& history) {
     sorted_ = history.ratios;
     history.median = middle_of(sorted_);

@@ -12,14 +12,16 @@ namespace {
 constexpr double kShortest = 2.0;
 }  // namespace
 
-std::optional<std::uint32_t> Trials::next(std::uint32_t chosen, std::span<const double> expected) {
+std::optional<std::uint32_t> Trials::next(std::uint32_t chosen, std::span<const double> expected,
+                                          std::span<const double> hoped) {
     if (running_ && (alternative_ == chosen || !std::isfinite(expected[alternative_]))) {
         running_ = false;  // nothing is left to find out
     }
     for (auto a = static_cast<std::uint32_t>(expected.size()); a-- > 0 && !running_;) {
         if (a == chosen || !std::isfinite(expected[a])) continue;
-        const double price = kShortest * std::max(0.0, expected[a] - expected[chosen]);
-        if (probes_.due(a, price)) begin(a);
+        const double price = kShortest * std::max(0.0, hoped[a] - expected[chosen]);
+        const bool promises = hoped[a] < (1.0 - settings_.promise) * expected[chosen];
+        if (probes_.due(a, price, promises)) begin(a);
     }
     return running_ ? std::optional(alternative_) : std::nullopt;
 }
@@ -53,6 +55,12 @@ std::optional<std::uint32_t> Trials::end_frame(double seconds, double to_beat) {
     running_ = false;
     probes_.paid(alternative_, std::max(0.0, charge_));
     return is_gain(middle_of(ratios_)) ? std::optional(alternative_) : std::nullopt;
+}
+
+void Trials::give_up(double seconds) {
+    if (!running_) return;
+    running_ = false;
+    probes_.mistaken(alternative_, std::max(0.0, charge_ + seconds));
 }
 
 }  // namespace weft::scheduler

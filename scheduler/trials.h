@@ -18,6 +18,8 @@ struct TrialSettings {
     double hopeless = 1.5;
     /// Relative gain below which a change is not worth it.
     double margin = 0.03;
+    /// Relative gain that is worth a trial before its time.
+    double promise = 0.1;
 };
 
 /// Tries what the plans leave out, in earnest: a trial is several frames long, and judged by the
@@ -34,7 +36,12 @@ public:
     /// trial of many devices tells more than one of one. Call once per frame.
     /// chosen    what would be done otherwise
     /// expected  [alternative] seconds of a frame; infinite where there is nothing to try
-    std::optional<std::uint32_t> next(std::uint32_t chosen, std::span<const double> expected);
+    /// hoped     [alternative] the same where forecasts disagree: the shortest of them
+    std::optional<std::uint32_t> next(std::uint32_t chosen, std::span<const double> expected,
+                                      std::span<const double> hoped);
+    std::optional<std::uint32_t> next(std::uint32_t chosen, std::span<const double> expected) {
+        return next(chosen, expected, expected);
+    }
 
     /// Whether the frame of the last next() belongs to a trial.
     bool running() const { return running_; }
@@ -51,6 +58,10 @@ public:
     /// first, were faster, by the margin, than what the chosen one was expected to take.
     /// seconds, to_beat  that the frame took, and that the chosen alternative would have taken
     std::optional<std::uint32_t> end_frame(double seconds, double to_beat);
+
+    /// A frame of a trial was given up in its middle, which ends the trial.
+    /// seconds  that were lost by it
+    void give_up(double seconds);
 
 private:
     void begin(std::uint32_t alternative);

@@ -117,13 +117,14 @@ bool Simulation::advance_from_start(const FrameDetails& details, FrameRecord& fr
     const FramePlan& plan = planned.next();
     end_part(frame, frame.plan_time);
     const int substeps = model().scene.substeps;
-    const RunTimes times = runner_->run(*plan.step, plan.plan, frame_, judge_->samples());
+    const auto times = runner_->run(plan, frame_, judge_->samples());
     end_part(frame, frame.execute_time);
+    if (!times) return false;
     const bool is_kept = stands(*plan.step, true, frame);
     end_part(frame, frame.check_time);
     if (!is_kept) return false;
-    planned.record(plan, times, substeps, details.tasks, frame);
-    planned.learn(plan, times, substeps, frame_);
+    planned.record(plan, *times, substeps, details.tasks, frame);
+    planned.learn(plan, *times, substeps, frame_);
     end_part(frame, frame.learn_time);
     ++frame_;
     live_->end_frame();

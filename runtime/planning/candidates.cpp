@@ -160,6 +160,18 @@ double Candidates::predict(std::uint32_t alternative) {
     return predict(division_of(alternative));
 }
 
+double Candidates::hope(std::uint32_t alternative) {
+    const double expected = predict(alternative);
+    if (!timing_.forecasts_differ() || !is_single(alternative)) return expected;
+    if (!std::isfinite(expected)) return expected;
+    double sum = 0.0;
+    const auto graph = prediction(division_of(alternative)).graph;
+    for (const Task& task : graph->step().tasks()) {
+        sum += timing_.hoped(task, static_cast<int>(alternative));
+    }
+    return std::min(sum, expected);
+}
+
 std::vector<int> Candidates::homes_of(std::uint32_t alternative) {
     if (is_placed(alternative)) return team_of(alternative).placement.homes();
     const Division division = division_of(alternative);

@@ -60,6 +60,8 @@ public:
 
     /// Seconds of a substep by the costs of its tasks; infinite where it is impossible.
     double predict(std::uint32_t alternative);
+    /// The same where forecasts of a device alone disagree (TimingModel::hoped): the shortest.
+    double hope(std::uint32_t alternative);
     /// Which device has a strip's data when an alternative begins. [strip]
     std::vector<int> homes_of(std::uint32_t alternative);
     /// What moving a substep's data there takes, from where they are [s].

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,7 +23,10 @@ struct FramePlan {
     scheduler::Plan plan;        ///< of one substep [s]
     /// How much longer than the costs of its tasks say it is expected to take, as learnt.
     double slowdown = 1.0;
-    double plan_time = 0.0;         ///< what planning took [s]
+    double plan_time = 0.0;  ///< what planning took [s]
+    /// A substep of the frame that takes longer shows that the plan is a mistake [s]. Infinite: of
+    /// plans that have been seen at work.
+    double patience = std::numeric_limits<double>::infinity();
     bool calibrates = false;        ///< made to learn about devices, not to be fast
     bool waking = false;            ///< runs on a device that has slept: its times tell nothing
     std::uint32_t alternative = 0;  ///< of the planner's, which it belongs to

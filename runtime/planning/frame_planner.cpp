@@ -21,6 +21,21 @@ constexpr scheduler::ProbeSettings kProbes{.start_frames = 1.0};
 /// disturbance.
 constexpr int kFramesToSee = 2;
 
+/// What is new may take so many times as long as what was settled on, per substep, and this [s]: a
+/// device that wakes up, or a busy moment, is no mistake of the plan. Exchanges that were forecast
+/// wrong were: on a GPU, placements took 30 times as long as forecast.
+constexpr double kPatience = 3.0;
+constexpr double kShortestPatience = 5e-3;
+
+/// A change by a forecast is taken back at the first frame that takes so many times as long,
+/// awake, as what was settled on before.
+constexpr double kRegret = 1.25;
+
+/// The part of the run's time that the search for better plans may take, and what it may take in
+/// advance [s]: an attempt with contact takes milliseconds, and most of them find nothing.
+constexpr double kSearchShare = 0.005;
+constexpr double kSearchAdvance = 0.05;
+
 /// Whether another device of another team is the same one, with more units: alone, it is better.
 bool is_part_of_another(const std::vector<Device*>& devices, std::size_t d) {
     const DeviceInfo& own = devices[d]->info();
@@ -56,7 +71,8 @@ FramePlanner::FramePlanner(StepMaker& maker, int strip_count, const std::vector<
       fixed_(std::move(division)),
       feedback_(maker.kinds().size(), devices.size(), Candidates::most(devices.size())),
       candidates_(maker, strip_count, devices, feedback_.timing()),
-      trials_(candidates_.count(), kProbes) {
+      trials_(candidates_.count(), kProbes),
+      search_credit_(kSearchAdvance) {
     feedback_.timing().count_rows_of(maker);
     if (kind_ == PlanKind::kPlaced && !candidates_.can_place()) kind_ = PlanKind::kAuto;
     if (kind_ == PlanKind::kExact && !candidates_.can_divide()) kind_ = PlanKind::kAuto;
@@ -98,14 +114,19 @@ void FramePlanner::find_expectations() {
     const std::uint32_t count = candidates_.count();
     predicted_.assign(count, kImpossible);
     expected_.assign(count, kImpossible);
+    hoped_.assign(count, kImpossible);
     for (std::uint32_t a = 0; a < count; ++a) {
         if (!is_wanted(a)) continue;
         predicted_[a] = candidates_.predict(a);
         if (last_instances_ == 0) continue;
+        double hoped = candidates_.hope(a);
         if (a != current_.alternative && !where_.empty()) {
-            predicted_[a] += candidates_.moving_time(where_, a) / last_instances_;
+            const double moving = candidates_.moving_time(where_, a) / last_instances_;
+            predicted_[a] += moving;
+            hoped += moving;
         }
         expected_[a] = predicted_[a] * feedback_.slowdown(a) * last_instances_;
+        hoped_[a] = hoped * feedback_.slowdown(a) * last_instances_;
     }
 }
 
@@ -122,11 +143,18 @@ bool FramePlanner::needs_trial(std::uint32_t alternative) const {
     return false;
 }
 
-std::uint32_t FramePlanner::choose() {
+/// As far as it has been paid for.
+void FramePlanner::search() {
+    const bool must_place = kind_ == PlanKind::kPlaced;
+    if (search_credit_ < 0.0 && !must_place) return;
+    const double start = now();
     if (kind_ != PlanKind::kSingle) candidates_.improve_mixtures();
-    if (kind_ == PlanKind::kAuto || kind_ == PlanKind::kPlaced) {
-        candidates_.improve_placements(kind_ == PlanKind::kPlaced);
-    }
+    if (kind_ == PlanKind::kAuto || must_place) candidates_.improve_placements(must_place);
+    search_credit_ -= now() - start;
+}
+
+std::uint32_t FramePlanner::choose() {
+    search();
     find_expectations();
     std::vector<double>& choice = choosable_;
     choice = predicted_;
@@ -142,7 +170,7 @@ std::uint32_t FramePlanner::choose() {
 std::uint32_t FramePlanner::or_trial(std::uint32_t chosen) {
     to_beat_ = expected_[chosen];
     if (!trials_.running() && frames_seen_ < kFramesToSee) return chosen;
-    return trials_.next(chosen, expected_).value_or(chosen);
+    return trials_.next(chosen, expected_, hoped_).value_or(chosen);
 }
 
 const FramePlan& FramePlanner::next() {
@@ -156,8 +184,16 @@ const FramePlan& FramePlanner::next() {
     }
     current_.slowdown = feedback_.slowdown(current_.alternative);
     current_.waking = (current_.devices() & ~awake_) != 0;
+    current_.patience = patience();
     current_.plan_time = now() - start;
     return current_;
+}
+
+/// With the present plan.
+double FramePlanner::patience() const {
+    const std::uint32_t a = current_.alternative;
+    if (!settled_ || a == settled_->alternative || a == last_) return kImpossible;
+    return std::max(kPatience * settled_->substep, kShortestPatience);
 }
 
 std::vector<FramePlan> FramePlanner::calibration() {
@@ -186,7 +222,10 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
     if (plan.calibrates) return candidates_.balance();
     awake_ = plan.devices();
     where_ = plan.strip_devices();
+    if (!trials_.running()) settle(plan, (times.end - times.start) / instances);
+    last_ = plan.alternative;
     last_instances_ = instances;
+    search_credit_ += kSearchShare * (times.end - times.start);
     frames_seen_ = plan.waking || trials_.running() ? 0 : frames_seen_ + 1;
     for (std::uint32_t a = 0; a < candidates_.count(); ++a) {
         if ((candidates_.devices_of(a) & ~awake_) == 0) trials_.used(a);
@@ -194,6 +233,27 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
     if (const auto better = trials_.end_frame(times.end - times.start, to_beat_)) {
         end_trial(*better);
     }
+}
+
+/// What was chosen by a forecast that has proved wrong is left at once for what was seen at work.
+void FramePlanner::give_up(const FramePlan& plan, double seconds, double substep) {
+    trials_.give_up(seconds);
+    feedback_.choice().given_up(plan.alternative, plan.plan.makespan, substep);
+    auto& choice = feedback_.choice();
+    if (choice.current() == plan.alternative) choice.prefer(settled_->alternative);
+}
+
+/// On what was chosen, once it is seen to be no worse than what was settled on before.
+void FramePlanner::settle(const FramePlan& plan, double substep) {
+    if (settled_ && plan.alternative != settled_->alternative) {
+        if (plan.waking) return;
+        if (substep > kRegret * settled_->substep) {
+            feedback_.choice().given_up(plan.alternative, plan.plan.makespan, substep);
+            feedback_.choice().prefer(settled_->alternative);
+            return;
+        }
+    }
+    settled_ = Settled{plan.alternative, substep};
 }
 
 /// It was faster than the chosen one is expected to be: whatever made it look slow has passed.

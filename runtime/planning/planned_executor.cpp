@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 
@@ -168,6 +169,22 @@ void PlannedExecutor::note_limits(const FramePlan& plan, const RunTimes& times, 
                        count +
                        " threads: its driver does not honour the limit, so it takes the other "
                        "devices' cores, too");
+}
+
+/// The first instance wakes devices and brings data along, the second one tells.
+std::optional<PlannedExecutor::Beginning> PlannedExecutor::try_out(const FramePlan& plan,
+                                                                   int instances) {
+    constexpr int kWorthwhile = 4;  // instances: below, most of the frame would be over
+    if (!std::isfinite(plan.patience) || instances < kWorthwhile) return Beginning{};
+    Beginning beginning;
+    beginning.times = executor_->run(*plan.step, plan.plan, 1, 0);
+    RunTimes second = executor_->run(*plan.step, plan.plan, 1, 1);
+    const double substep = second.end - second.start;
+    beginning.times.append(std::move(second));
+    beginning.instances = 2;
+    if (substep <= plan.patience) return beginning;
+    planner_->give_up(plan, beginning.times.end - beginning.times.start, substep);
+    return std::nullopt;
 }
 
 void PlannedExecutor::learn(const FramePlan& plan, const RunTimes& times, int instances,

@@ -58,6 +58,15 @@ public:
 
     /// The plan for the next frame.
     const FramePlan& next() { return planner_->next(); }
+    /// What was run of a frame so far.
+    struct Beginning {
+        RunTimes times;
+        int instances = 0;
+    };
+    /// Runs as many instances of a frame of `instances` as it takes to see whether its plan is a
+    /// mistake: none by a plan that has been seen at work, or in short frames. Without a value it
+    /// is one, and the frame has to begin again, by the next() plan.
+    std::optional<Beginning> try_out(const FramePlan& plan, int instances);
     /// Learns from how frame number `frame` went by it.
     void learn(const FramePlan& plan, const RunTimes& times, int instances, int frame);
     /// Writes down how it was planned and how it went, before anything is learnt from it.

@@ -22,6 +22,8 @@ public:
     double of(const Task& task) const;
     /// Whether tasks of this kind have more than their own items.
     bool vary(int kind) const;
+    /// Whether those of any kind have.
+    bool any_vary() const { return !rows_.empty(); }
 
 private:
     struct Rows {

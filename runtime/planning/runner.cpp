@@ -186,13 +186,17 @@ private:
         return frame;
     }
 
-    /// False: a device was lost, and the frame has to be done again.
+    /// False: a device was lost, or the plan was a mistake, and the frame has to be done again.
     bool run_planned(int instances, FrameRecord& frame) {
         try {
             run_->make_room_ahead();
             const FramePlan& plan = run_->next();
             end_part(frame, frame.plan_time);
-            const RunTimes times = execute(*plan.step, plan.plan, instances);
+            auto beginning = run_->try_out(plan, instances);
+            if (!beginning) undo();
+            end_part(frame, frame.execute_time);
+            if (!beginning) return false;
+            const RunTimes times = execute(*plan.step, plan.plan, instances, std::move(*beginning));
             end_part(frame, frame.execute_time);
             run_->record(plan, times, instances, trace_.has_value(), frame);
             run_->learn(plan, times, instances, frame_);
@@ -204,12 +208,17 @@ private:
         }
     }
 
-    RunTimes execute(const Step& step, const scheduler::Plan& plan, int instances) {
+    /// begun  what was run of the frame already
+    RunTimes execute(const Step& step, const scheduler::Plan& plan, int instances,
+                     PlannedExecutor::Beginning begun = {}) {
         while (true) {
-            RunTimes times = run_->executor().run(step, plan, instances);
+            RunTimes times = std::move(begun.times);
+            times.append(
+                run_->executor().run(step, plan, instances - begun.instances, begun.instances));
             for (BufferStorage* buffer : carried_) run_->executor().fetch(*buffer);
             if (!run_->make_room()) return times;
             undo();
+            begun = {};
         }
     }
 

@@ -51,6 +51,12 @@ double TimingModel::task(const Task& task, int device) const {
                             : costs_.predict(kind, d, count);
 }
 
+double TimingModel::hoped(const Task& task, int device) const {
+    const double own = costs_.predict(static_cast<std::uint32_t>(task.body->kind),
+                                      static_cast<std::uint32_t>(device), items(task));
+    return std::min(own, this->task(task, device));
+}
+
 void TimingModel::set_latency(int from, int to, double seconds) {
     links_[index(from, to)].latency = seconds;
     unseen_[index(from, to)] = kOldFrames;

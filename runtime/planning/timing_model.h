@@ -28,7 +28,11 @@ public:
     /// What the cost model counts of a task.
     double items(const Task& task) const { return rows_.of(task); }
     bool items_vary(const Task& task) const { return rows_.vary(task.body->kind); }
+    /// Whether hoped() is anything else than task().
+    bool forecasts_differ() const { return rows_.any_vary(); }
     double task(const Task& task, int device) const;
+    /// The same, if what has changed for devices in use has not for this one: the shorter time.
+    double hoped(const Task& task, int device) const;
     double latency(int from, int to) const { return links_[index(from, to)].latency; }
     const Link& link(int from, int to) const { return links_[index(from, to)]; }
     /// What is known from elsewhere, and is replaced as soon as it is measured here.

@@ -15,25 +15,39 @@ void FrameRunner::begin_frame() {
 
 RunTimes FrameRunner::run(const Step& step, const scheduler::Plan& plan, int frame,
                           ErrorSamples* samples) {
-    const Work work{step, plan, frame, samples};
+    return run({step, plan, frame, samples}, {});
+}
+
+std::optional<RunTimes> FrameRunner::run(const FramePlan& plan, int frame, ErrorSamples* samples) {
+    auto begun = live_.planned().try_out(plan, live_.model().scene.substeps);
+    if (!begun) {
+        live_.go_back_to_start();
+        return std::nullopt;
+    }
+    return run({*plan.step, plan.plan, frame, samples}, std::move(*begun));
+}
+
+RunTimes FrameRunner::run(const Work& work, PlannedExecutor::Beginning begun) {
     while (true) {
-        if (auto times = try_substeps(work)) return std::move(*times);
+        if (auto times = try_substeps(work, std::move(begun))) return std::move(*times);
         ++redone_;
         live_.go_back_to_start();
+        begun = {};
     }
 }
 
 /// None: they have to be done again. What frames lack that were done again shows in their first
 /// substep as a rule, so it is looked at before the others are begun. (Looking more often does not
 /// pay: how much room is needed is known when all substeps have run.)
-std::optional<RunTimes> FrameRunner::try_substeps(const Work& work) {
+std::optional<RunTimes> FrameRunner::try_substeps(const Work& work,
+                                                  PlannedExecutor::Beginning begun) {
     const bool is_doubtful = (redone_ > 0 || was_redone_) && live_.model().scene.substeps > 1;
-    RunTimes times;
-    if (is_doubtful) {
-        times = live_.executor().run(work.step, work.plan, 1);
-        if (lacks_room()) return std::nullopt;
+    if (is_doubtful && begun.instances == 0) {
+        begun = {live_.executor().run(work.step, work.plan, 1), 1};
     }
-    times.append(run_substeps(work, is_doubtful ? 1 : 0));
+    if (is_doubtful && lacks_room()) return std::nullopt;
+    RunTimes times = std::move(begun.times);
+    times.append(run_substeps(work, begun.instances));
     live_.fetch();
     if (lacks_room()) return std::nullopt;
     return times;

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "runtime/executor.h"
-#include "scheduler/plan.h"
+#include "runtime/planning/planned_executor.h"
 
 namespace weft {
 
@@ -22,6 +21,9 @@ public:
     /// it, and once more if bodies went where contact did not look for them.
     /// samples: which may want the last substep; null: there are none
     RunTimes run(const Step& step, const scheduler::Plan& plan, int frame, ErrorSamples* samples);
+    /// The same by a plan that may prove a mistake: then there is no value, the model is at the
+    /// frame's start, and the next plan is another one.
+    std::optional<RunTimes> run(const FramePlan& plan, int frame, ErrorSamples* samples);
     /// How often the frame was run again for contact.
     std::uint32_t redone() const { return redone_; }
 
@@ -32,7 +34,8 @@ private:
         int frame;
         ErrorSamples* samples;
     };
-    std::optional<RunTimes> try_substeps(const Work& work);
+    RunTimes run(const Work& work, PlannedExecutor::Beginning begun);
+    std::optional<RunTimes> try_substeps(const Work& work, PlannedExecutor::Beginning begun);
     RunTimes run_substeps(const Work& work, int first);
     bool lacks_room();
 

@@ -88,6 +88,47 @@ TEST(Trials, CostNoMoreThanTheirShareOfTheTime) {
     EXPECT_LT(extra, 0.01 * kFrames + 4.0);
 }
 
+/// What was lost by it has to be earned before the same one is tried again; others have no part in
+/// it.
+TEST(Trials, EndWhereAFrameIsGivenUp) {
+    Trials trials(3, {.interval = 1, .price_share = 0.01, .start_frames = 1.0});
+    const double impossible = std::numeric_limits<double>::infinity();
+    const std::vector one{kFrame, impossible, kFrame}, other{kFrame, kFrame, impossible};
+    trials.end_frame(kFrame, kFrame);
+    ASSERT_EQ(trials.next(0, one), 2U);
+    trials.give_up(3.0 * kFrame);
+    EXPECT_FALSE(trials.running());
+    trials.give_up(kFrame);  // there is no trial: nothing is charged
+
+    trials.end_frame(kFrame, kFrame);
+    ASSERT_EQ(trials.next(0, other), 1U);
+    while (trials.running()) trials.end_frame(kFrame, kFrame);
+    int frames = 0;
+    while (!trials.next(0, one).has_value()) {
+        trials.end_frame(kFrame, kFrame);
+        ASSERT_LT(++frames, 1000);
+    }
+    EXPECT_NEAR(frames, 150, 10) << "its debt is paid back while credit is earned";
+}
+
+/// Where one forecast of several promises a gain, the trial comes before its time, at no price.
+TEST(Trials, ComeEarlyWhereForecastsDisagree) {
+    const auto frames_until = [](double hoped) {
+        Trials trials(2, {.start_frames = 0.0});
+        trials.used(1);
+        int frames = 0;
+        const std::vector expected{kFrame, 1.5 * kFrame};
+        while (!trials.next(0, expected, std::vector{kFrame, hoped}).has_value() && frames < 1000) {
+            trials.end_frame(kFrame, kFrame);
+            ++frames;
+        }
+        return frames;
+    };
+    EXPECT_EQ(frames_until(0.8 * kFrame), 8);
+    EXPECT_EQ(frames_until(0.95 * kFrame), 30);
+    EXPECT_GT(frames_until(1.3 * kFrame), 30);
+}
+
 TEST(Trials, NeverTryWhatIsImpossibleOrInUse) {
     Trials trials(3, {.start_frames = 10.0});
     const double impossible = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -61,6 +62,7 @@ public:
         const FramePlan& plan = planner.next();
         const double next_time = now() - start;
         const RunTimes times = machine.run(plan, kSubsteps);
+        if (gives_up(plan, times)) return advance();
         const Frame frame{plan.division(),
                           plan.is_placed(),
                           plan.lower_bound() * kSubsteps,
@@ -95,7 +97,27 @@ public:
         return kSubsteps * std::accumulate(all.begin(), all.end(), 0.0) / speed;
     }
 
+    int given_up() const { return given_up_; }
+
 private:
+    bool gives_up(const FramePlan& plan, const RunTimes& times) {
+        const double first = end_of(0, times), second = end_of(1, times);
+        if (second - first <= plan.patience) return false;
+        planner.give_up(plan, second - times.start, second - first);
+        ++given_up_;
+        return true;
+    }
+    static double end_of(int instance, const RunTimes& times) {
+        double end = times.start;
+        for (const auto& device : times.tasks) {
+            for (const TaskTime& time : device) {
+                if (time.instance == instance) end = std::max(end, time.end);
+            }
+        }
+        return end;
+    }
+
+    int given_up_ = 0;  ///< frames, in their middle
     Warnings warnings_;
     Model model_;
     std::unique_ptr<Solver> solver_;

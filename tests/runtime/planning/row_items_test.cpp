@@ -5,6 +5,7 @@
 
 #include "runtime/planning/row_items.h"
 #include "runtime/planning/timing_model.h"
+#include "tests/runtime/planning/virtual_machine.h"
 
 namespace weft::test {
 namespace {
@@ -105,6 +106,39 @@ TEST(RowItems, CostsFollowRowsThatGrowAtOnce) {
     EXPECT_NEAR(timing.task(step.tasks()[0], 0), taken, 0.01 * taken);
     EXPECT_LT(blind.task(step.tasks()[0], 0), 0.5 * taken);
     EXPECT_NEAR(timing.task(step.tasks()[1], 0), kPerItem * 20, 0.01 * kPerItem * 20);
+}
+
+/// The first device takes what entries take, the second one always the same. What that one tells
+/// when rows have become shorter, that nothing has changed, holds for itself only: the first one is
+/// tried, and found to be faster.
+TEST(RowItems, ADeviceIsTriedWhereItemsSpeakForIt) {
+    constexpr double kPerEntry = 1e-6;
+    constexpr int kSubsteps = 8, kLong = 20, kShort = 5;
+    WorkWithRows work;
+    VirtualMachine machine({{0.0, kPerEntry}, {2e-4, 0.0}}, 0.0);
+    FramePlanner planner(work, kStrips, machine.devices(), PlanKind::kSingle);
+    const auto want = [&](int entries) {
+        for (int strip = 0; strip < kStrips; ++strip) work.want(strip, entries);
+        machine.speeds[0].by_kind = {1.0 + entries, 1.0};
+    };
+    const auto run = [&](const FramePlan& plan, int substeps) {
+        planner.learn(plan, machine.run(plan, substeps), substeps);
+    };
+    const auto frame_on_first = [&] {
+        const FramePlan& plan = planner.next();
+        run(plan, kSubsteps);
+        return plan.devices() == 1U;
+    };
+    want(2 * kLong);
+    for (const FramePlan& plan : planner.calibration()) run(plan, 2);
+    want(kLong);
+    for (int i = 0; i < 20; ++i) frame_on_first();
+    ASSERT_FALSE(frame_on_first());
+    want(kShort);
+    for (int i = 0; i < 20; ++i) frame_on_first();
+    int stayed = 0;
+    for (int i = 0; i < 20; ++i) stayed += frame_on_first() ? 1 : 0;
+    EXPECT_GE(stayed, 16) << "but for a trial of the other one";
 }
 
 }  // namespace

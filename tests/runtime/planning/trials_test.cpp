@@ -60,6 +60,48 @@ TEST(PlannerTrials, RememberedCostsAreNoVerdict) {
     }
 }
 
+/// What is forecast to be fast, and has never been seen, takes longer than ten frames: one frame
+/// begins by it, and nothing is ever chosen by that forecast again.
+TEST(PlannerTrials, AMistakeIsGivenUpInTheMiddleOfAFrame) {
+    Planned p(kAcross, kAlong, {{2e-6, 20e-9}, {2e-6, 25e-9}}, 20e-3);
+    p.advance(10);
+    const auto before = p.advance();
+    ASSERT_EQ(before.division.devices(), std::vector{0});
+    for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
+        p.planner.timing().set_latency(from, to, 1e-6);
+    }
+    for (int i = 0; i < 40; ++i) {
+        const auto frame = p.advance();
+        EXPECT_EQ(frame.division.devices(), std::vector{0}) << i;
+        EXPECT_NEAR(frame.measured / before.measured, 1.0, 1e-9) << i;
+    }
+    EXPECT_EQ(p.given_up(), 1);
+}
+
+/// The mixture, left a moment ago, is forecast to be the fastest again, too early for a trial, and
+/// takes twice as long: two frames are lost by that, of which the first one only wakes a device.
+TEST(PlannerTrials, ASmallerMistakeIsTakenBackOnceItIsSeen) {
+    Planned p(kAcross, kAlong, {{2e-6, 20e-9}, {2e-6, 25e-9}}, 20e-6);
+    ASSERT_EQ(p.advance(10).division.devices().size(), 2U);
+    p.machine.latency = 800e-6;
+    int frames = 0;
+    while (p.advance().division.devices().size() == 2 && frames < 20) ++frames;
+    const auto before = p.advance();
+    ASSERT_EQ(before.division.devices(), std::vector{0});
+    for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
+        p.planner.timing().set_latency(from, to, 1e-6);
+    }
+    int mixed = 0;
+    for (int i = 0; i < 10; ++i) {
+        const auto frame = p.advance();
+        if (frame.division.devices().size() == 1) continue;
+        EXPECT_GT(frame.measured, 1.5 * before.measured);
+        ++mixed;
+    }
+    EXPECT_EQ(mixed, 2);
+    EXPECT_EQ(p.given_up(), 0);
+}
+
 /// All devices become slow together right after the start. The third one, which calibration has
 /// seen drowsy only, is the fastest: a trial that had to beat the mixture's forecast would be lost.
 TEST(PlannerTrials, HaveToBeatWhatWasMeasured) {
