@@ -29,7 +29,7 @@ public:
     /// What a frame planned by this alternative took.
     void measured(std::uint32_t alternative, double planned, double seconds);
 
-    /// One that took so much longer that its frame was given up: that is all that is known of it.
+    /// One that took so much longer than planned that it was given up: nothing else is known of it.
     void given_up(std::uint32_t alternative, double planned, double seconds);
 
     std::uint32_t current() const { return current_; }

@@ -37,7 +37,7 @@ class PassedOn {
 public:
     explicit PassedOn(cl::Context context) : context_(std::move(context)) {}
 
-    /// Whether it needs to be passed on.
+    /// Whether it needs to be passed on. own: null for what is not OpenCL's
     bool is_foreign(const OpenClCompletion* own) const;
     const cl::Event& event_of(Completion& completion);
     /// When completions are gone.
@@ -49,8 +49,7 @@ private:
 };
 
 /// What the commands of an in-order queue wait for. What an earlier one has waited for, later ones
-/// need not name again; of several commands of one queue the last one does. Each name costs: behind
-/// events of the host, NVIDIA's driver took 100 us and more for every single copy.
+/// need not name again; of several commands of one queue the last one does.
 class QueueWaits {
 public:
     QueueWaits() = default;

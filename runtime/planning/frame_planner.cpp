@@ -237,21 +237,21 @@ void FramePlanner::learn(const FramePlan& plan, const RunTimes& times, int insta
 
 /// What was chosen by a forecast that has proved wrong is left at once for what was seen at work.
 void FramePlanner::give_up(const FramePlan& plan, double seconds, double substep) {
-    trials_.give_up(seconds);
-    feedback_.choice().given_up(plan.alternative, plan.plan.makespan, substep);
     auto& choice = feedback_.choice();
+    trials_.give_up(seconds);
+    choice.given_up(plan.alternative, plan.plan.makespan, substep);
     if (choice.current() == plan.alternative) choice.prefer(settled_->alternative);
 }
 
 /// On what was chosen, once it is seen to be no worse than what was settled on before.
 void FramePlanner::settle(const FramePlan& plan, double substep) {
-    if (settled_ && plan.alternative != settled_->alternative) {
-        if (plan.waking) return;
-        if (substep > kRegret * settled_->substep) {
-            feedback_.choice().given_up(plan.alternative, plan.plan.makespan, substep);
-            feedback_.choice().prefer(settled_->alternative);
-            return;
-        }
+    const bool is_new = settled_ && plan.alternative != settled_->alternative;
+    if (is_new && plan.waking) return;
+    if (is_new && substep > kRegret * settled_->substep) {
+        auto& choice = feedback_.choice();
+        choice.given_up(plan.alternative, plan.plan.makespan, substep);
+        choice.prefer(settled_->alternative);
+        return;
     }
     settled_ = Settled{plan.alternative, substep};
 }
