@@ -25,7 +25,7 @@ bool is_open(const SimulationOptions& options, LiveModel& live) {
 
 std::string why_not_open(LiveModel& live) {
     if (!has_asynchronous_form(live)) {
-        return fmt::format("{} has no asynchronous form",
+        return fmt::format("{} has no asynchronous form in this scene",
                            name_of(live.model().scene.solver.method));
     }
     if (!has_several_devices(live)) return "one device has nobody to wait for";

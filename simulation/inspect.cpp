@@ -157,15 +157,19 @@ void add_elements(LeftOutList& list, const Model& model) {
 }
 
 void add_obstacles(LeftOutList& list, const Model& model) {
-    const std::string push = "push_out_of_";
+    const std::string push = "push_out_of_", planes = "find_obstacle_planes";
     if (!model.obstacles) {
-        list.add_with("obstacles", "the scene has no [[obstacle]]",
-                      [&](const KernelInfo& kernel) { return kernel.name.starts_with(push); });
+        list.add_with("obstacles", "the scene has no [[obstacle]]", [&](const KernelInfo& kernel) {
+            return kernel.name.starts_with(push) || kernel.name == planes;
+        });
         list.add("friction", "the scene has no [[obstacle]]");
         return;
     }
     if (!model.obstacles->have_friction()) {
         list.add("friction", "no obstacle has friction above 0");
+    }
+    if (model.obstacles->narrow() == nullptr) {
+        list.add("narrow obstacles", "triangles have room for none", planes);
     }
     for (const ObstacleShape& shape : obstacle_shapes()) {
         const auto is_it = [&](const Obstacle& o) { return o.shape == shape.name; };

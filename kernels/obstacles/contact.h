@@ -144,12 +144,26 @@ WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearne
     return v;
 }
 
+/// Seen from the obstacle itself, or from the plane that triangles have given the vertex, whichever
+/// asks for more (narrow.h). The normals are the world's.
+/// plane  xyz: its normal, w: where it is along that [m]
+WEFT_INLINE nearness or_from_plane(nearness near, real3 x, real4 plane, float thickness) {
+    const real distance = dot3(xyz(plane), x) - plane.w + splat(thickness);
+    near.normal.x = distance < near.distance ? plane.x : near.normal.x;
+    near.normal.y = distance < near.distance ? plane.y : near.normal.y;
+    near.normal.z = distance < near.distance ? plane.z : near.normal.z;
+    near.distance = smaller(near.distance, distance);
+    return near;
+}
+
 /// push_out_of_<shape> moves vertices out of one obstacle.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]; read and written
 /// previous    [vertices] xyz at the substep's start [m]
 /// targets     [vertices] xyz: x~ [m], w: the grip [m]; read and written unless WEFT_PUSH_ALONE
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see above
+/// planes      [narrow obstacles * vertex_count] column-major, see narrow.h
 /// told        WEFT_PUSH_...
+/// narrow      its number among obstacles that have planes; -1: it has none
 /// obstacle    which one
 #define WEFT_OBSTACLE_KERNELS(shape)                                                             \
     /* Seen from the plane of the first contact on the way from `start` to `end`. */             \
@@ -184,14 +198,18 @@ WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearne
                                                                                                  \
     WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                              \
                 WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* targets,                 \
-                WEFT_GLOBAL const float4* obstacles, int told, int obstacle_count, int obstacle, \
-                int substep) {                                                                   \
+                WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float4* planes, int told, \
+                int vertex_count, int narrow, int obstacle_count, int obstacle, int substep) {   \
         WEFT_GLOBAL const float4* o =                                                            \
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);              \
         const real4 x = load4(positions, i);                                                     \
         const real3 start = xyz(load4(previous, i));                                             \
         nearness near = seen_from_##shape(o, start, xyz(x));                                     \
         near.normal = apply_back(o, near.normal);                                                \
+        if (narrow >= 0) {                                                                       \
+            const real4 plane = load4(planes, column(i, vertex_count, narrow));                  \
+            near = or_from_plane(near, xyz(x), plane, o[7].x);                                   \
+        }                                                                                        \
         const real depth = push_depth(o, near.distance, x.w);                                    \
         if (told == WEFT_PUSH_LAST || any_item(depth > splat(0.0f))) {                           \
             real4 target = with_w(start, splat(0.0f));                                           \

@@ -49,14 +49,12 @@ int frames_per_estimate(const Model& model) {
 std::vector<char> held_by_obstacles(const Model& model, double time) {
     if (!model.obstacles) return {};
     std::vector<char> held(model.positions->count());
-    for (const Obstacle& obstacle : model.convex_obstacles) {
-        const Frame frame = obstacle.frame_at(time);
+    for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
+        const Frame frame = model.convex_obstacles[o].frame_at(time);
         for_each_block(model.vertex_count(), [&](int /*block*/, int begin, int end) {
             for (int v = begin; v < end; ++v) {
-                const Vec3 x = to_vec3((*model.positions)[static_cast<std::size_t>(v)]);
-                if (distance_to_local(obstacle, frame.to_local(x)) > obstacle.thickness + kTouch) {
+                if (!model.obstacles->touches(o, frame, v, model.positions->span(), kTouch))
                     continue;
-                }
                 held[index(model.scene_vertex(v))] = 1;
             }
         });

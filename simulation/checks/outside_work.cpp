@@ -31,10 +31,10 @@ public:
           double start, double end, bool with_pins)
         : model_(model), before_(before), now_(now) {
         if (model.moving_pins && with_pins) lead_by_pins();
-        for (const Obstacle& obstacle : model.convex_obstacles) {
-            const Frame from = obstacle.frame_at(start);
-            const Frame to = obstacle.frame_at(end);
-            if (!(from == to)) lead_by(obstacle, from, to);
+        for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
+            const Frame from = model.convex_obstacles[o].frame_at(start);
+            const Frame to = model.convex_obstacles[o].frame_at(end);
+            if (!(from == to)) lead_by(o, from, to);
         }
     }
 
@@ -71,17 +71,16 @@ private:
         });
     }
 
-    void lead_by(const Obstacle& obstacle, const Frame& from, const Frame& to) {
-        const double near = obstacle.thickness + kTouch;
-        const bool is_endless = obstacle.half_size == Vec3{};
-        const double reach = length(obstacle.half_size) + near;
+    void lead_by(std::size_t number, const Frame& from, const Frame& to) {
+        const Obstacle& obstacle = model_.convex_obstacles[number];
+        const double reach = model_.obstacles->reach(number) + kTouch;
         lead_all([&](std::size_t v) {
             if (now_[v].w == 0.0f) return;
             const Vec3 place = to_vec3(now_[v]);
             const Vec3 apart = place - to.origin;
-            if (!is_endless && dot(apart, apart) > reach * reach) return;
+            if (dot(apart, apart) > reach * reach) return;
+            if (!model_.obstacles->touches(number, to, static_cast<int>(v), now_, kTouch)) return;
             const Vec3 local = to.to_local(place);
-            if (distance_to_local(obstacle, local) > near) return;
             by_[v] = place - from.to_world(local);
             if (!obstacle.friction)
                 by_[v] = along(to.axes * normal_at_local(obstacle, local), by_[v]);
@@ -175,6 +174,13 @@ double doubt_of_blows(const Model& model, const SimulationState& before, double 
     return speed * length(gained - fallen);
 }
 
+/// Of the work of what is led. Corners of triangles that narrow obstacles push may be pulled either
+/// way in the end: what they seem to have taken back is no less in doubt than what they gave.
+double part_in_doubt(const Model& model, double led) {
+    const bool has_narrow = model.obstacles && model.obstacles->narrow() != nullptr;
+    return has_narrow && led < 0.0 ? 1.0 : 0.5;
+}
+
 }  // namespace
 
 OutsideWork outside_work(const Model& model, const SimulationState& before, double start,
@@ -194,7 +200,8 @@ OutsideWork outside_work(const Model& model, const SimulationState& before, doub
     // Forces at a frame's ends say little of those within it, where stiff elements swing in every
     // substep: what pins do may be far more.
     if (leads.is_pinned()) sum.doubt = std::numeric_limits<double>::infinity();
-    sum.doubt += 0.5 * std::abs(led) + doubt_of_blows(model, before, start, end);
+    sum.doubt += part_in_doubt(model, led) * std::abs(led);
+    sum.doubt += doubt_of_blows(model, before, start, end);
     return sum;
 }
 

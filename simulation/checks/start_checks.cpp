@@ -18,19 +18,25 @@ namespace {
 struct Inside {
     std::vector<int> vertices;  ///< the body's own numbers, the first few
     int count = 0;
-    double deepest = 0.0;  ///< [m]
-    double energy = 0.0;   ///< [J] that they get if they are pushed out in one substep
+    bool by_triangles = false;  ///< some of them by triangles around them alone
+    double deepest = 0.0;       ///< [m]
+    double energy = 0.0;        ///< [J] that they get if they are pushed out in one substep
 };
 
-Inside find_inside(const Model& model, const BodyRange& body, const Obstacle& obstacle) {
+Inside find_inside(const Model& model, const BodyRange& body, std::size_t number) {
     constexpr std::size_t kNamed = 3;
+    const Obstacle& obstacle = model.convex_obstacles[number];
+    const Frame frame = obstacle.frame_at(0.0);
     Inside inside;
     for (int own = 0; own < body.vertex_count; ++own) {
         const int v = model.vertex(body.vertex(own));
         const float4& x = (*model.positions)[static_cast<std::size_t>(v)];
         if (x.w == 0.0f) continue;  // obstacles do not push what is held
-        const double depth = -distance_to(obstacle, to_vec3(x), 0.0);
+        const double own_depth = -distance_to(obstacle, to_vec3(x), 0.0);
+        const double depth = std::max(own_depth, model.obstacles->depth_of_triangles(
+                                                     number, frame, v, model.positions->span()));
         if (depth <= 0.0) continue;
+        inside.by_triangles |= own_depth <= 0.0;
         if (inside.vertices.size() < kNamed) inside.vertices.push_back(own);
         ++inside.count;
         inside.deepest = std::max(inside.deepest, depth);
@@ -40,15 +46,17 @@ Inside find_inside(const Model& model, const BodyRange& body, const Obstacle& ob
     return inside;
 }
 
-void warn_of_inside(const Model& model, const Obstacle& obstacle, Warnings& warnings) {
+void warn_of_inside(const Model& model, std::size_t number, Warnings& warnings) {
+    const Obstacle& obstacle = model.convex_obstacles[number];
     for (const BodyRange& body : model.bodies) {
-        const Inside inside = find_inside(model, body, obstacle);
+        const Inside inside = find_inside(model, body, number);
         if (inside.count == 0) continue;
         warnings.push_back(fmt::format(
-            "{} of {} vertices of {} '{}' start inside obstacle '{}' (the first: {}), up to {:.3g} "
-            "m deep; the first substep pushes them out, at up to {:.3g} m/s and with {:.3g} J: "
-            "move one of the two",
-            inside.count, body.vertex_count, body.kind, body.name, obstacle.name,
+            "{} of {} vertices of {} '{}'{} start inside obstacle '{}' (the first: {}), up to "
+            "{:.3g} m deep; the first substep pushes them out, at up to {:.3g} m/s and with {:.3g} "
+            "J: move one of the two",
+            inside.count, body.vertex_count, body.kind, body.name,
+            inside.by_triangles ? ", or triangles around them," : "", obstacle.name,
             fmt::join(inside.vertices, ", "), inside.deepest, inside.deepest / model.h,
             inside.energy));
     }
@@ -141,19 +149,17 @@ void warn_of_rounding(const Model& model, Warnings& warnings) {
 
 double energy_inside_obstacles(const Model& model) {
     double energy = 0.0;
-    for (const Obstacle& obstacle : model.convex_obstacles) {
-        for (const BodyRange& body : model.bodies) {
-            energy += find_inside(model, body, obstacle).energy;
-        }
+    for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
+        for (const BodyRange& body : model.bodies) energy += find_inside(model, body, o).energy;
     }
     return energy;
 }
 
 void warn_of_start(const Model& model, Warnings& warnings) {
     warn_of_rounding(model, warnings);
-    for (const Obstacle& obstacle : model.convex_obstacles) {
-        warn_of_inside(model, obstacle, warnings);
-        warn_of_turns(model, obstacle, warnings);
+    for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
+        warn_of_inside(model, o, warnings);
+        warn_of_turns(model, model.convex_obstacles[o], warnings);
     }
 }
 

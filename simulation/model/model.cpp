@@ -188,8 +188,18 @@ Model::Model(const Scene& given, Gathered all, Warnings* warnings)
                                                    strips, scene.substeps);
     }
     if (!convex_obstacles.empty()) {
-        obstacles = std::make_unique<Obstacles>(convex_obstacles, scene.substeps);
+        obstacles =
+            std::make_unique<Obstacles>(convex_obstacles, scene.substeps,
+                                        NarrowObstacles::of(convex_obstacles, moving_surface()));
     }
+}
+
+MovingSurface Model::moving_surface() const {
+    MovingSurface surface{positions->span(), triangles};
+    for (auto& triangle : surface.triangles) {
+        for (int& v : triangle) v = vertex(SceneVertex{v});
+    }
+    return surface;
 }
 
 void Model::make_vertices(const Gathered& all) {

@@ -99,6 +99,7 @@ public:
 private:
     Model(const Scene& scene, Gathered all, Warnings* warnings);
     void make_vertices(const Gathered& all);
+    MovingSurface moving_surface() const;
     template <class Family, class Families>
     static Family* find_in(Families& families) {
         for (auto& family : families) {

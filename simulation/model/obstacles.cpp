@@ -92,8 +92,10 @@ kernels::nearness near_obstacle(const Obstacle& obstacle, Vec3 local) {
 
 }  // namespace
 
-Obstacles::Obstacles(const std::vector<Obstacle>& obstacles, int substeps)
+Obstacles::Obstacles(const std::vector<Obstacle>& obstacles, int substeps,
+                     std::unique_ptr<NarrowObstacles> narrow)
     : obstacles_(obstacles),
+      narrow_(std::move(narrow)),
       substeps_(substeps),
       placements_("obstacles",
                   static_cast<std::size_t>(substeps) * obstacles.size() * WEFT_OBSTACLE_ROWS) {}
@@ -131,14 +133,49 @@ Vec3 normal_at_local(const Obstacle& obstacle, Vec3 local) {
 void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,
                              Buffer<float4>& positions, Buffer<float4>& previous,
                              const PushedTargets& pushed) {
-    Buffer<float4>& targets = pushed.targets ? *pushed.targets : positions;
     for (int i = 0; i < count(); ++i) {
-        const auto push_out = [&](auto kernel) {
-            return launch(kernel, vertices, positions, previous, targets, placements_,
-                          told_of(pushed), count(), i, kInstance);
-        };
-        launches.push_back(launch_for(obstacles_[static_cast<std::size_t>(i)], push_out));
+        launches.push_back(launch_push(i, vertices, positions, previous, pushed));
     }
+}
+
+Launch Obstacles::launch_push(int obstacle, const Segments& vertices, Buffer<float4>& positions,
+                              Buffer<float4>& previous, const PushedTargets& pushed) {
+    Buffer<float4>& targets = pushed.targets ? *pushed.targets : positions;
+    const bool have_planes = narrow_ && pushed.have_planes;
+    Buffer<float4>& planes = have_planes ? narrow_->planes() : previous;
+    const int vertex_count = have_planes ? narrow_->vertex_count() : 0;
+    const int narrow = have_planes ? narrow_->number_of(obstacle) : -1;
+    return launch_for(obstacles_[static_cast<std::size_t>(obstacle)], [&](auto kernel) {
+        return launch(kernel, vertices, positions, previous, targets, placements_, planes,
+                      told_of(pushed), vertex_count, narrow, count(), obstacle, kInstance);
+    });
+}
+
+bool Obstacles::is_narrow(std::size_t obstacle) const {
+    return narrow_ && narrow_->number_of(static_cast<int>(obstacle)) >= 0;
+}
+
+double Obstacles::reach(std::size_t obstacle) const {
+    const Obstacle& one = obstacles_[obstacle];
+    if (one.half_size == Vec3{}) return std::numeric_limits<double>::infinity();
+    return length(one.half_size) + one.thickness + (narrow_ ? narrow_->reach() : 0.0);
+}
+
+bool Obstacles::touches(std::size_t obstacle, const Frame& frame, int vertex,
+                        std::span<const float4> positions, double touch) const {
+    const Obstacle& one = obstacles_[obstacle];
+    const double near = one.thickness + touch;
+    const Vec3 local = frame.to_local(to_vec3(positions[static_cast<std::size_t>(vertex)]));
+    if (distance_to_local(one, local) <= near) return true;
+    if (!is_narrow(obstacle)) return false;
+    // What comes down on it is pushed a little too far by some of its triangles.
+    return depth_of_triangles(obstacle, frame, vertex, positions) >= -near - 0.1 * one.half_width;
+}
+
+double Obstacles::depth_of_triangles(std::size_t obstacle, const Frame& frame, int vertex,
+                                     std::span<const float4> positions) const {
+    if (!is_narrow(obstacle)) return -std::numeric_limits<double>::infinity();
+    return narrow_->depth(obstacles_[obstacle], frame, vertex, positions);
 }
 
 }  // namespace weft

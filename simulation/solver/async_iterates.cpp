@@ -95,7 +95,7 @@ AsyncIterates::AsyncIterates(const Model& model, std::unique_ptr<Solver> solver,
     if (solver_->asynchrony().kinds.empty()) {
         throw UserError(
             "--plan async: the scene's solver has no asynchronous form; xpbd, vbd, sosd "
-            "and jpgd have one");
+            "and jpgd have one where triangles have room for no obstacle");
     }
     if (model.scene.contact) check_contact();
     add_exchanges();

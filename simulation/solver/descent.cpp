@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "kernels/descent/substep.h"
 #include "kernels/motion.h"
@@ -14,16 +13,39 @@ DescentSubstep::DescentSubstep(Model& model, int first_kind)
       targets_("targets", static_cast<std::size_t>(model.vertex_count())),
       contact_(ContactResponse::of(model, first_kind)),
       momentum_(model, contact_.get(), nullptr, targets_,
-                first_kind + (contact_ ? static_cast<int>(contact_->kinds().size()) : 0)) {}
+                first_kind + (contact_ ? static_cast<int>(contact_->kinds().size()) : 0)),
+      next_kind_(first_kind + count_kinds()) {}
+
+int DescentSubstep::count_kinds() const {
+    std::vector<std::string> kinds;
+    list_kinds(kinds);
+    return static_cast<int>(kinds.size());
+}
+
+void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots) {
+    narrow_ = NarrowTask::of(model_, {std::move(iterates), &targets_, contact_.get(), snapshots},
+                             next_kind_);
+}
+
+void DescentSubstep::add_first_narrow(Step& step, const std::vector<Region>& regions) {
+    if (narrow_) narrow_->add_first(step, regions);
+}
+
+void DescentSubstep::add_narrow(Step& step, const std::vector<Region>& regions, int iteration,
+                                std::size_t iterate) {
+    if (narrow_) narrow_->add(step, regions, iteration, iterate);
+}
 
 void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);
+    if (narrow_) narrow_->list_bodies(bodies);
 }
 
 void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (contact_) std::ranges::copy(contact_->kinds(), std::back_inserter(kinds));
     std::ranges::copy(momentum_.kinds(), std::back_inserter(kinds));
+    if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds));
 }
 
 std::vector<BufferStorage*> DescentSubstep::state() {
@@ -101,28 +123,6 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
 void DescentSubstep::add_measurements(Step& step, const std::vector<Region>& regions,
                                       int iteration) {
     if (contact_) contact_->energy().add(step, regions, iteration);
-}
-
-Halo::Halo(const Model& model) : lowest_(model.strips.order.size()), highest_(lowest_.size()) {
-    std::iota(lowest_.begin(), lowest_.end(), 0);
-    std::iota(highest_.begin(), highest_.end(), 0);
-    for (const Stencils& kind : model.stencils()) {
-        for (int e = 0; e < kind.count(); ++e) {
-            const auto [low, high] = std::ranges::minmax(kind[e]);
-            for (const int v : kind[e]) {
-                int& lowest = lowest_[static_cast<std::size_t>(v)];
-                int& highest = highest_[static_cast<std::size_t>(v)];
-                lowest = std::min(lowest, low);
-                highest = std::max(highest, high);
-            }
-        }
-    }
-}
-
-std::pair<int, int> Halo::around(int begin, int end) const {
-    if (begin >= end) return {begin, end};
-    return {*std::min_element(lowest_.begin() + begin, lowest_.begin() + end),
-            *std::max_element(highest_.begin() + begin, highest_.begin() + end) + 1};
 }
 
 }  // namespace weft

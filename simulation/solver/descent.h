@@ -9,6 +9,8 @@
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/body_momentum.h"
+#include "simulation/solver/halo.h"
+#include "simulation/solver/narrow_task.h"
 
 namespace weft {
 
@@ -25,6 +27,17 @@ public:
     Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
     /// Behind the ends of all regions: what is measured of a substep.
     void add_measurements(Step& step, const std::vector<Region>& regions, int iteration);
+
+    /// Where the iterates are; without it obstacles keep out vertices alone.
+    /// snapshots: as in NarrowTask::Setting
+    void keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots);
+    /// Before the first iteration, of solvers that must not begin inside; behind an iteration of
+    /// all regions. iterate: in which of those it ended
+    void add_first_narrow(Step& step, const std::vector<Region>& regions);
+    void add_narrow(Step& step, const std::vector<Region>& regions, int iteration,
+                    std::size_t iterate = 0);
+    /// Whether that does anything.
+    bool has_narrow() const { return narrow_ != nullptr; }
 
     /// Free bodies, and obstacles' pushes.
     BodyMomentum& momentum() { return momentum_; }
@@ -46,22 +59,14 @@ public:
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
 private:
+    int count_kinds() const;
+
     Model& model_;
     Buffer<float4> targets_;
     std::unique_ptr<ContactResponse> contact_;
     BodyMomentum momentum_;
-};
-
-/// Which positions the elements of a range of vertices read.
-class Halo {
-public:
-    explicit Halo(const Model& model);
-
-    /// The range of vertices that share an element with one of [begin, end), and those themselves.
-    std::pair<int, int> around(int begin, int end) const;
-
-private:
-    std::vector<int> lowest_, highest_;  ///< [vertices] that share an element with it
+    std::unique_ptr<NarrowTask> narrow_;  ///< null: no narrow obstacles
+    int next_kind_;                       ///< behind those of contacts and momentum
 };
 
 }  // namespace weft

@@ -111,12 +111,16 @@ public:
 
     /// Positions and what becomes of them take turns in two buffers. Behind a check, which may take
     /// back what was done, both have to be made anew before anybody may look at older ones.
-    Asynchrony asynchrony() const override { return {{kRefresh, kStep}, {}, 0.5f, kCheckEvery, 2}; }
+    Asynchrony asynchrony() const override {
+        if (substep_.has_narrow()) return {};  // as in sweeps.cpp
+        return {{kRefresh, kStep}, {}, 0.5f, kCheckEvery, 2};
+    }
 
     Step make_step(const Partition& partition) override {
         const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+        substep_.add_first_narrow(step, regions);
         if (contact_ != nullptr) contact_->add_detection(step, regions);
         for (int i = 0; i < iterations_; ++i) {
             if (i % kCheckEvery == 0) add_check(step, regions, i);
@@ -124,6 +128,7 @@ public:
                 for_each_share(region,
                                [&](StripRange strips) { add_descent(step, i, strips, region.id); });
             }
+            substep_.add_narrow(step, regions, i, static_cast<std::size_t>((i + 1) % 2));
         }
         add_check(step, regions, iterations_);
         substep_.momentum().add_sums(step, regions, iterations_);
@@ -174,6 +179,7 @@ private:
             }
         }
         substep_.momentum().look_at(after(iterations_));
+        substep_.keep_triangles_out({&after(0), &after(1)}, /*snapshots=*/false);
         velocities_ = {"velocities", kVelocities, {}};
         if (iterations_ % 2 != 0) {
             velocities_.launches.push_back(

@@ -9,6 +9,7 @@ SweepSolver::SweepSolver(Model& model)
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
     substep_.momentum().look_at(*model.positions);
+    substep_.keep_triangles_out({model.positions.get()}, /*snapshots=*/true);
 }
 
 void SweepSolver::add_sweep(const VertexLayout& layout,
@@ -63,7 +64,11 @@ std::vector<Buffer<float4>*> SweepSolver::iterate() {
     return buffers;
 }
 
-Solver::Asynchrony SweepSolver::asynchrony() const { return {{kSeams, kStrips}, {}}; }
+/// Triangles that narrow obstacles push reach into other parts.
+Solver::Asynchrony SweepSolver::asynchrony() const {
+    if (substep_.has_narrow()) return {};
+    return {{kSeams, kStrips}, {}};
+}
 
 Step SweepSolver::make_step(const Partition& partition) {
     const auto regions = regions_of(partition);
@@ -71,7 +76,10 @@ Step SweepSolver::make_step(const Partition& partition) {
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
-    for (int i = 0; i < iterations; ++i) add_iteration(step, regions, i);
+    for (int i = 0; i < iterations; ++i) {
+        add_iteration(step, regions, i);
+        substep_.add_narrow(step, regions, i);
+    }
     substep_.momentum().add_sums(step, regions, iterations - 1);
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);

@@ -8,6 +8,7 @@
 #include "runtime/planning/regions.h"
 #include "simulation/contact/projection.h"
 #include "simulation/solver/body_momentum.h"
+#include "simulation/solver/narrow_task.h"
 
 namespace weft {
 
@@ -39,6 +40,10 @@ public:
             add_one_by_one();
         if (contact_) make_push();
         make_velocities();
+        narrow_ =
+            NarrowTask::of(model, {{model.positions.get()}, targets_.get(), contact_.get(), false},
+                           static_cast<int>(kinds_.size()));
+        if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds_));
     }
 
     std::vector<const TaskBody*> bodies() const override {
@@ -50,6 +55,7 @@ public:
             }
         }
         list.push_back(&velocities_);
+        if (narrow_) narrow_->list_bodies(list);
         if (!contact_) return list;
         list.push_back(&push_);
         for (const TaskBody* body : contact_->bodies()) list.push_back(body);
@@ -80,6 +86,7 @@ public:
     /// The multipliers count every motion in full, so it must not be lost: where half of it is,
     /// they and the positions do not belong together any more, and iterations end elsewhere.
     Asynchrony asynchrony() const override {
+        if (narrow_) return {};  // as in sweeps.cpp
         Asynchrony asynchrony{{}, {}, 1.0f};
         for (const Group& group : groups_) {
             if (!group.families.empty()) asynchrony.kinds.push_back(group.seams[0].kind);
@@ -273,6 +280,7 @@ private:
         for (const Region& region : regions) {
             if (contact_) add_push(step, iteration, region);
         }
+        if (narrow_) narrow_->add(step, regions, iteration);
     }
 
     void add_seams(Step& step, const Group& group, int iteration, StripRange seams, RegionId id) {
@@ -325,6 +333,7 @@ private:
     std::unique_ptr<ContactProjection> projection_;  ///< likewise
     std::unique_ptr<Buffer<float4>> targets_;  ///< [vertices] x~; null: no free bodies in contact
     std::unique_ptr<BodyMomentum> momentum_;   ///< likewise
+    std::unique_ptr<NarrowTask> narrow_;       ///< null: no narrow obstacles
     TaskBody predict_, velocities_;
     TaskBody push_;              ///< empty: no contact
     std::vector<Group> groups_;  ///< in the order in which they are projected

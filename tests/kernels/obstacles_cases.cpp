@@ -2,6 +2,7 @@
 // here.
 
 #include "kernels/obstacles/inside.h"
+#include "kernels/obstacles/narrow.h"
 
 #include <limits>
 
@@ -80,25 +81,64 @@ Moved add_moved(KernelCase& c) {
     return moved;
 }
 
+Argument whole(int value) {
+    Argument argument;
+    argument.integer = value;
+    return argument;
+}
+
 /// Behind the arguments of its own: how many obstacles there are, which one, and the substep.
 void finish(KernelCase& c, const kernels::KernelInfo& kernel) {
     Argument substep;
     substep.run_value = RunValue::kOfInstance;
-    Argument count;
-    count.integer = kObstacles;
-    Argument which;
-    which.integer = 1;
     c.launch.kernel = &kernel;
     c.launch.segments = c.segments;
-    c.launch.arguments.insert(c.launch.arguments.end(), {count, which, substep});
+    c.launch.arguments.insert(c.launch.arguments.end(), {whole(kObstacles), whole(1), substep});
+}
+
+/// Planes of two narrow obstacles, through about where the vertices are, and none.
+Buffer<float4>& add_planes(KernelCase& c, const Buffer<float4>& positions) {
+    auto& planes = c.add<float4>("planes", 2 * c.items);
+    for (std::size_t k = 0; k < planes.count(); ++k) {
+        const float4& x = positions[k % positions.count()];
+        const float beyond = c.random.real(-0.1f, 0.1f);
+        planes[k] = {0.6f, 0.0f, -0.8f, 0.6f * x.x - 0.8f * x.z + beyond};
+        if (c.random.integer(0, 3) == 0) planes[k] = {0.0f, 0.0f, 0.0f, -3e38f};
+    }
+    return planes;
 }
 
 void push_case(KernelCase& c, Buffer<float4>& obstacles) {
     const Moved moved = add_moved(c);
     auto& targets = add_targets(c);
-    Argument told;
-    told.integer = c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST);
-    c.launch.arguments = {{&moved.positions}, {&moved.previous}, {&targets}, {&obstacles}, told};
+    auto& planes = add_planes(c, moved.positions);
+    c.launch.arguments = {
+        {&moved.positions}, {&moved.previous},
+        {&targets},         {&obstacles},
+        {&planes},          whole(c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST)),
+        whole(c.items),     whole(c.random.integer(-1, 1))};
+}
+
+/// Triangles between any vertices, up to four at each; some have no area.
+void planes_case(KernelCase& c, Buffer<float4>& obstacles) {
+    constexpr int kSlots = 4;
+    const Moved moved = add_moved(c);
+    auto& corners = c.add<int>("corners", 3 * kSlots * c.items);
+    std::fill(corners.data(), corners.data() + corners.count(), -1);
+    for (int v = 0; v < c.items; ++v) {
+        for (int slot = 0; slot < c.random.integer(0, kSlots); ++slot) {
+            const auto at = [&](int k) {
+                return static_cast<std::size_t>((3 * slot + k) * c.items + v);
+            };
+            for (int k = 0; k < 3; ++k) corners[at(k)] = c.random.integer(0, c.items - 1);
+            corners[at(c.random.integer(0, 2))] = v;
+        }
+    }
+    auto& planes = c.add<float4>("planes", 2 * c.items);
+    const float reach = c.random.integer(0, 1) == 0 ? 0.2f : 5.0f;
+    c.launch =
+        launch(kernels::find_obstacle_planes, c.segments, moved.positions, moved.previous, corners,
+               obstacles, planes, c.items, kSlots, reach, kObstacles, 1, 1, kInstance);
 }
 
 /// Contact has taken back a quarter of the vertices.
@@ -119,12 +159,13 @@ void inside_case(KernelCase& c, Buffer<float4>& obstacles) {
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed) {
     const bool pushes = kernel.starts_with("push_out_of_");
-    if (!pushes && kernel != "find_inside") return nullptr;
+    const bool finds_planes = kernel == "find_obstacle_planes";
+    if (!pushes && !finds_planes && kernel != "find_inside") return nullptr;
     auto made = std::make_unique<KernelCase>(items, flavour, seed);
     auto& obstacles = made->add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
     place(*made, obstacles);
     if (!pushes) {
-        inside_case(*made, obstacles);
+        finds_planes ? planes_case(*made, obstacles) : inside_case(*made, obstacles);
         return made;
     }
     push_case(*made, obstacles);

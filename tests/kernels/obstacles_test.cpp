@@ -48,7 +48,8 @@ struct Contact {
     template <class Kernel>
     Vec3 rub(Kernel kernel, int told = WEFT_PUSH_ALONE) {
         const Launch push =
-            launch(kernel, Segments{}, positions, previous, targets, rows, told, 1, 0, 0);
+            launch(kernel, Segments{}, positions, previous, targets, rows, previous, told, 1,
+                   /*narrow=*/-1, 1, 0, 0);
         run_on_host(push, push.kernel->scalar, 0, 1);
         return vec(positions[0]);
     }

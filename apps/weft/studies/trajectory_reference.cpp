@@ -98,11 +98,18 @@ TrajectoryReference solved_reference(const ErrorOptions& options, const Scene& s
     return reference;
 }
 
+bool is_for_solvers(const Scene& scene) {
+    if (scene.contact) return true;
+    const Model model(scene);
+    return model.obstacles && model.obstacles->narrow() != nullptr;
+}
+
 }  // namespace
 
 TrajectoryReference run_reference(const ErrorOptions& options) {
     const Scene scene = read_scene(options.run.scene, options.run.overrides());
-    return scene.contact ? solved_reference(options, scene) : explicit_reference(options, scene);
+    return is_for_solvers(scene) ? solved_reference(options, scene)
+                                 : explicit_reference(options, scene);
 }
 
 }  // namespace weft

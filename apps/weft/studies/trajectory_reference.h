@@ -18,8 +18,9 @@ struct TrajectoryReference {
 };
 
 /// Explicit and in double precision (FineRun), which leans on none of the solvers; but that knows
-/// no contact, so with [contact] it is a solver's. With substeps left out, there are 8 times the
-/// most that are swept, with [contact] twice. Throws UserError, RunError.
+/// no contact, and keeps no triangles out of narrow obstacles, so with either it is a solver's.
+/// With substeps left out, there are 8 times the most that are swept, of a solver's twice. Throws
+/// UserError, RunError.
 TrajectoryReference run_reference(const ErrorOptions& options);
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "kernels/newton/coarse.h"
-#include "simulation/solver/newton/accesses.h"
+#include "simulation/solver/accesses.h"
 
 namespace weft {
 

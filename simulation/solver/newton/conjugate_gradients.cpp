@@ -5,7 +5,7 @@
 
 #include "kernels/descent/energy_terms.h"
 #include "kernels/newton/conjugate_gradients.h"
-#include "simulation/solver/newton/accesses.h"
+#include "simulation/solver/accesses.h"
 
 namespace weft {
 

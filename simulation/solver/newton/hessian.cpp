@@ -7,7 +7,7 @@
 #include "kernels/newton/blocks.h"
 #include "runtime/error.h"
 #include "runtime/tbb/parallel.h"
-#include "simulation/solver/newton/accesses.h"
+#include "simulation/solver/accesses.h"
 
 namespace weft {
 

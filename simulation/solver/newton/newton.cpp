@@ -7,9 +7,9 @@
 #include "kernels/vbd/solve.h"
 #include "runtime/unused_memory.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
+#include "simulation/solver/accesses.h"
 #include "simulation/solver/derivatives.h"
 #include "simulation/solver/energy_sum.h"
-#include "simulation/solver/newton/accesses.h"
 #include "simulation/solver/newton/conjugate_gradients.h"
 #include "simulation/solver/newton/refinement.h"
 
@@ -117,6 +117,7 @@ public:
         regions_ = regions_of(partition);
         Step step;
         for (const Region& region : regions_) add_predict(step, region);
+        substep_.add_first_narrow(step, regions_);
         number_ = 0;
         if (contact_ != nullptr) contact_->add_detection(step, regions_);
         add_check(step);
@@ -175,6 +176,7 @@ private:
         advance_ = {"advance", kAdvance, gradients_.advance()};
         make_control_bodies();
         substep_.momentum().look_at(*model_.positions);
+        substep_.keep_triangles_out({model_.positions.get()}, /*snapshots=*/true);
         velocities_ = {"velocities", kVelocities, substep_.end()};
     }
 
@@ -320,6 +322,7 @@ private:
             add_columns(task, gradients_.moves(), model_.vertex_count(), 3, first, last, false);
             add_last_word_accesses(task, region.strips());
         }
+        substep_.add_narrow(step, regions_, number_);
     }
 
     /// Of obstacles, and of contacts.
@@ -347,6 +350,7 @@ private:
                     }
                 });
         }
+        substep_.add_narrow(step, regions_, number_);
     }
 
     /// As in sweeps.cpp.

@@ -37,7 +37,7 @@ const TestScene kScenes[] = {
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "d636f27ba0f14dcba17e327f1b7d8556"},
     {"VbdTouching", kTouching, Method::kVbd, "fd904b6194fe154f4dd3ddc3e84648d7"},
-    {"VbdLying", kLying, Method::kVbd, "a933e745a09491f11686cd68658b53e2"},
+    {"VbdLying", kLying, Method::kVbd, "874f80676a547526df70ca3f16224cda"},
     {"VbdRubbing", kRubbing, Method::kVbd, "fc9e5d2dafb06ebc8081a7fb863e0f78"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "2eeb31ac2a0d7f7d0bb60370afe1547b"},
     {"SosdTouching", kTouching, Method::kSosd, "4d35c280a63eebb44ad0d7179e9c5259"},
@@ -59,6 +59,11 @@ const TestScene kScenes[] = {
     {"NewtonSewn", kSewn, Method::kNewton, "6d8f26ed3a5fde89011b730bc461f1f6"},
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},
+    {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "fe5f9c121727d5df2b2d6023adf907bf"},
+    {"VbdNarrow", kNarrow, Method::kVbd, "5554371b59baaac85e6bca22b680fde8"},
+    {"SosdNarrow", kNarrow, Method::kSosd, "3dfa9ef1c5f16d0f493edd8caf27cf31"},
+    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "626ee2981a3cf2d0f5ab13360d42bc93"},
+    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "ad1e2acc82b9a0bbf885bbb1b13125fc"},
     {"JpgdWoven", kWoven, Method::kJpgd, "07f820a0af9a8e04d2f4773335a1bb4b"},
 };
 

@@ -249,6 +249,55 @@ radius = 0.15
 friction = 0.4
 )";
 
+/// Cloth and solids on obstacles that pass between their vertices: a line, a bar that moves, a
+/// small ball that is fast.
+inline const std::string kNarrow = R"(
+[scene]
+frames = 4
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 3
+
+[[cloth]]
+name = "sheet"
+grid = { size = [0.8, 2.0], resolution = [9, 40] }
+translate = [0.0, 0.5, 0.0]
+density = 0.2
+stretch = { stiffness = 1.0e3 }
+bend = { stiffness = 1.0e-3 }
+damping = 0.5
+pins = { corners = ["x-z-", "x+z-"] }
+
+[[solid]]
+grid = { size = [0.3, 0.3, 0.3], resolution = [4, 4, 4] }
+translate = [1.0, 0.67, 0.0]
+density = 200.0
+young = 1.0e5
+poisson = 0.3
+
+[[obstacle]]
+shape = "capsule"
+start = [-0.5, 0.49, 0.1]
+end = [1.5, 0.49, 0.1]
+radius = 0.006
+friction = 0.4
+
+[[obstacle]]
+shape = "box"
+center = [0.0, 0.44, -0.5]
+size = [0.9, 0.02, 0.03]
+motion = { velocity = [0.0, 1.0, 0.2] }
+
+[[obstacle]]
+shape = "sphere"
+center = [0.05, 1.0, 0.62]
+radius = 0.02
+thickness = 0.002
+motion = { velocity = [0.0, -9.0, 0.0] }
+)";
+inline const std::string kNarrowTouching = kNarrow + "[contact]\nthickness = 0.004\n";
+
 /// A block on a sheet on a net whose one side is carried along, all in contact from the start.
 inline const std::string kTouching = R"(
 [scene]

@@ -110,21 +110,23 @@ std::string name_of_case(
                         : text == &kSolids   ? "Solids"
                         : text == &kWoven    ? "Woven"
                         : text == &kTouching ? "Touching"
-                                             : "Sewn";
+                        : text == &kNarrow   ? "Narrow"
+                        : text == &kSewn     ? "Sewn"
+                                             : "NarrowTouching";
     return std::string(name_of(method)) + scene;
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, Accesses,
-                         testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
-                                                          Method::kSosd, Method::kJpgd,
-                                                          Method::kNewton),
-                                          testing::Values(&kEverything, &kSolids, &kWoven, &kSewn)),
-                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(
+    Solvers, Accesses,
+    testing::Combine(testing::Values(Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd,
+                                     Method::kNewton),
+                     testing::Values(&kEverything, &kSolids, &kWoven, &kSewn, &kNarrow)),
+    name_of_case);
 INSTANTIATE_TEST_SUITE_P(InContact, Accesses,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
                                                           Method::kSosd, Method::kJpgd,
                                                           Method::kNewton),
-                                          testing::Values(&kTouching)),
+                                          testing::Values(&kTouching, &kNarrowTouching)),
                          name_of_case);
 
 }  // namespace

@@ -1,0 +1,121 @@
+#ifndef WEFT_KERNELS_OBSTACLES_NARROW_H
+#define WEFT_KERNELS_OBSTACLES_NARROW_H
+
+// Obstacles that are narrower than triangles pass between vertices, unless the triangles stop them.
+//
+// Behind each iteration, and behind the pushes of vertices (contact.h), each vertex looks at the
+// triangles around it, and takes its part of what keeps them out: a plane that it is on the wrong
+// side of. Another launch then pushes it there, as it pushes a vertex out of the obstacle itself.
+
+#include "kernels/lanes.h"
+#include "kernels/obstacles/core.h"
+
+WEFT_KERNELS_BEGIN
+
+/// [m] of the corner that has moved the most.
+WEFT_INLINE real farthest_way(corners3 start, corners3 end) {
+    const real3 a = subtract(end.a, start.a);
+    const real3 b = subtract(end.b, start.b);
+    const real3 c = subtract(end.c, start.c);
+    return square_root(larger(dot3(a, a), larger(dot3(b, b), dot3(c, c))));
+}
+
+/// [m] from one of its corners to the farthest: all of the triangle is no farther.
+WEFT_INLINE real size_around(real3 corner, corners3 t) {
+    const real3 a = subtract(t.a, corner);
+    const real3 b = subtract(t.b, corner);
+    const real3 c = subtract(t.c, corner);
+    return square_root(larger(dot3(a, a), larger(dot3(b, b), dot3(c, c))));
+}
+
+/// Where corners are held, others move for them, but no further than so many times the depth.
+#define WEFT_MOST_FOR_OTHERS 4.0f
+
+/// What the corner with `weight` and `inverse_mass` moves, so that the triangle's point moves by
+/// all of the depth and momentum is kept among the corners (Mueller et al. 2007, section 3.3).
+WEFT_INLINE real share_of_push(core_meeting m, real3 inverse_masses, real weight, real inverse_mass,
+                               real depth) {
+    const real3 moves = make3(m.weights.x * inverse_masses.x, m.weights.y * inverse_masses.y,
+                              m.weights.z * inverse_masses.z);
+    const real share = weight * inverse_mass / divisor(dot3(moves, m.weights));
+    return depth * smaller(share, splat(WEFT_MOST_FOR_OTHERS));
+}
+
+/// What triangles ask of a vertex that keep out of one obstacle. Of several the one that asks for
+/// the most counts.
+/// positions   [vertices] xyz [m], w = 1/mass [1/kg]
+/// previous    [vertices] xyz at the substep's start [m]
+/// corners     [3 * slots * vertex_count] column-major: of the triangles around each vertex; -1
+///             behind the last of them
+/// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see contact.h
+/// planes      [narrow obstacles * vertex_count] column-major, written: xyz: the normal, w: where
+///             it is along it [m]; a normal of 0: none
+/// slots       the most triangles at a vertex
+/// reach       [m] a vertex farther away has no triangle that meets it
+/// obstacle    which one, and `narrow` among those that have planes
+WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const int* corners,
+                   WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL float4* planes,
+                   int vertex_count, int slots, float reach, int obstacle_count, int obstacle,
+                   int narrow, int substep) {
+    WEFT_GLOBAL const float4* o =
+        obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
+    const float4 core = core_of(o);
+    const real zero = splat(0.0f);
+    const real keep = splat(core.w + o[7].x);
+    const whole none = splat_whole(0);
+    const whole self = item_numbers(i);
+    const real4 x = load4(positions, i);
+    const real3 own_start = local_at_start(o, xyz(load4(previous, i)));
+    const real3 own_end = apply(o, xyz(x));
+    const real away = length3(subtract(own_end, nearest_of_core(own_end, core)));
+    const real near = keep + splat(reach) + length3(subtract(own_end, own_start));
+
+    real3 normal = make3(zero, zero, zero);
+    real most = zero;
+    const mask is_near = both(x.w > zero, away < near);
+    if (any_item(is_near)) {
+        for (int k = 0; k < slots; ++k) {
+            const whole one = load_whole(corners, column(i, vertex_count, 3 * k));
+            const whole two = load_whole(corners, column(i, vertex_count, 3 * k + 1));
+            const whole three = load_whole(corners, column(i, vertex_count, 3 * k + 2));
+            if (largest_whole(one) < 0) break;
+            const integer at_a = address(larger_whole(one, none));
+            const integer at_b = address(larger_whole(two, none));
+            const integer at_c = address(larger_whole(three, none));
+            const real4 x_a = gather4(positions, at_a);
+            const real4 x_b = gather4(positions, at_b);
+            const real4 x_c = gather4(positions, at_c);
+            const corners3 end = {apply(o, xyz(x_a)), apply(o, xyz(x_b)), apply(o, xyz(x_c))};
+            const corners3 start = {local_at_start(o, xyz(gather4(previous, at_a))),
+                                    local_at_start(o, xyz(gather4(previous, at_b))),
+                                    local_at_start(o, xyz(gather4(previous, at_c)))};
+            const real way = farthest_way(start, end);
+            const mask is_there = both(is_near, one >= none);
+            const mask may_meet = both(is_there, away < keep + way + size_around(own_end, end));
+            if (!any_item(may_meet)) continue;
+            core_meeting m = meet_core(end, core);
+            const mask is_swept = both(may_meet, way * way >= splat(o[7].z));
+            if (any_item(is_swept)) {
+                const core_meeting met = meet_core_on_way(start, end, m, core, keep);
+                m = choose_meeting(is_swept, met, m);
+            }
+            const real3 inverse_masses = make3(x_a.w, x_b.w, x_c.w);
+            const real weight = self == one ? m.weights.x : self == two ? m.weights.y : m.weights.z;
+            const real push = share_of_push(m, inverse_masses, weight, x.w, keep - m.distance);
+            const mask counts = both(may_meet, push > most);
+            most = counts ? push : most;
+            normal.x = counts ? m.normal.x : normal.x;
+            normal.y = counts ? m.normal.y : normal.y;
+            normal.z = counts ? m.normal.z : normal.z;
+        }
+    }
+    const real3 out = apply_back(o, normal);
+    const real there = dot3(out, xyz(x)) + most;
+    const real nowhere = splat(-3e38f);
+    store4(planes, column(i, vertex_count, narrow), with_w(out, most > zero ? there : nowhere));
+}
+
+WEFT_KERNELS_END
+
+#endif
