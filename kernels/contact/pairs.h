@@ -12,6 +12,7 @@
 // An entry of a row is 2 * number of the other one, + 1 if they push. Rows ascend, as candidates
 // do.
 
+#include "kernels/choice.h"
 #include "kernels/contact/candidates.h"
 #include "kernels/contact/regions.h"
 
@@ -201,10 +202,6 @@ WEFT_NARROW_KERNEL(find_vertices, WEFT_GLOBAL const float4* points, WEFT_GLOBAL 
         }
         close_emptied_rows(row, anew, counts, needs, i, instance);
     }
-}
-
-WEFT_INLINE real3 either(mask m, real3 a, real3 b) {
-    return make3(m ? a.x : b.x, m ? a.y : b.y, m ? a.z : b.z);
 }
 
 /// 1 where the closest points are inside of both edges.

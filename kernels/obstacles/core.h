@@ -6,8 +6,8 @@
 // by as much as it is wide at its narrowest: where cloth lies around them, its triangles cut them
 // off anyway, and its vertices know the box itself.
 
+#include "kernels/choice.h"
 #include "kernels/contact/closest.h"
-#include "kernels/lanes.h"
 #include "kernels/obstacles/shapes.h"
 
 WEFT_KERNELS_BEGIN
@@ -62,12 +62,8 @@ typedef struct {
 
 WEFT_INLINE way_to_core shorter(way_to_core one, way_to_core other) {
     const mask is_shorter = other.square < one.square;
-    one.weights.x = is_shorter ? other.weights.x : one.weights.x;
-    one.weights.y = is_shorter ? other.weights.y : one.weights.y;
-    one.weights.z = is_shorter ? other.weights.z : one.weights.z;
-    one.way.x = is_shorter ? other.way.x : one.way.x;
-    one.way.y = is_shorter ? other.way.y : one.way.y;
-    one.way.z = is_shorter ? other.way.z : one.way.z;
+    one.weights = either(is_shorter, other.weights, one.weights);
+    one.way = either(is_shorter, other.way, one.way);
     one.square = is_shorter ? other.square : one.square;
     return one;
 }
@@ -132,12 +128,9 @@ typedef struct {
 
 /// m where that holds, else the other.
 WEFT_INLINE core_meeting choose_meeting(mask holds, core_meeting m, core_meeting other) {
-    other.weights.x = holds ? m.weights.x : other.weights.x;
-    other.weights.y = holds ? m.weights.y : other.weights.y;
-    other.weights.z = holds ? m.weights.z : other.weights.z;
-    other.normal.x = holds ? m.normal.x : other.normal.x;
-    other.normal.y = holds ? m.normal.y : other.normal.y;
-    other.normal.z = holds ? m.normal.z : other.normal.z;
+    other.weights = either(holds, m.weights, other.weights);
+    other.at = either(holds, m.at, other.at);
+    other.normal = either(holds, m.normal, other.normal);
     other.distance = holds ? m.distance : other.distance;
     return other;
 }

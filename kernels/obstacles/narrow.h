@@ -7,7 +7,6 @@
 // triangles around it, and takes its part of what keeps them out: a plane that it is on the wrong
 // side of. Another launch then pushes it there, as it pushes a vertex out of the obstacle itself.
 
-#include "kernels/lanes.h"
 #include "kernels/obstacles/core.h"
 
 WEFT_KERNELS_BEGIN
@@ -105,9 +104,7 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
             const real push = share_of_push(m, inverse_masses, weight, x.w, keep - m.distance);
             const mask counts = both(may_meet, push > most);
             most = counts ? push : most;
-            normal.x = counts ? m.normal.x : normal.x;
-            normal.y = counts ? m.normal.y : normal.y;
-            normal.z = counts ? m.normal.z : normal.z;
+            normal = either(counts, m.normal, normal);
         }
     }
     const real3 out = apply_back(o, normal);
