@@ -186,12 +186,17 @@ WEFT_INLINE nearness or_from_plane(nearness near, real3 x, real4 plane, float th
         const real too_far = dot3(way, way) - splat(o[7].z);                                     \
         const real zero = splat(0.0f);                                                           \
         nearness near = near_##shape(end, o[6]);                                                 \
-        if (any_item(too_far >= zero)) {                                                         \
-            const nearness met = met_##shape(o, local_at_start(o, start), end);                  \
-            near.distance = too_far >= zero ? met.distance : near.distance;                      \
-            near.normal.x = too_far >= zero ? met.normal.x : near.normal.x;                      \
-            near.normal.y = too_far >= zero ? met.normal.y : near.normal.y;                      \
-            near.normal.z = too_far >= zero ? met.normal.z : near.normal.z;                      \
+        if (!any_item(too_far >= zero)) return near;                                             \
+        /* What is farther than it has gone has come from farther than the thickness. */         \
+        const real3 begin = local_at_start(o, start);                                            \
+        const real reach = length3(subtract(end, begin)) + splat(o[7].x) - near.distance;        \
+        const real swept = too_far >= zero ? reach : splat(-1.0f);                               \
+        if (any_item(swept >= zero)) {                                                           \
+            const nearness met = met_##shape(o, begin, end);                                     \
+            near.distance = swept >= zero ? met.distance : near.distance;                        \
+            near.normal.x = swept >= zero ? met.normal.x : near.normal.x;                        \
+            near.normal.y = swept >= zero ? met.normal.y : near.normal.y;                        \
+            near.normal.z = swept >= zero ? met.normal.z : near.normal.z;                        \
         }                                                                                        \
         return near;                                                                             \
     }                                                                                            \

@@ -70,13 +70,13 @@ WEFT_INLINE way_to_core shorter(way_to_core one, way_to_core other) {
 
 WEFT_INLINE way_to_core from_triangle(corners3 t, real3 point) {
     const closest_points c = closest_vertex_triangle(point, t.a, t.b, t.c);
-    way_to_core found = {{-c.weights.y, -c.weights.z, -c.weights.w}, c.way, c.square};
+    const way_to_core found = {{-c.weights.y, -c.weights.z, -c.weights.w}, c.way, c.square};
     return found;
 }
 
 WEFT_INLINE way_to_core from_corner(real3 corner, real3 weights, float4 core) {
     const real3 way = subtract(nearest_of_core(corner, core), corner);
-    way_to_core found = {weights, way, dot3(way, way)};
+    const way_to_core found = {weights, way, dot3(way, way)};
     return found;
 }
 
@@ -93,29 +93,39 @@ WEFT_INLINE way_to_core from_edges(corners3 t, real3 begin, real3 end) {
     return shorter(shorter(ends, of_ab), shorter(of_bc, of_ca));
 }
 
-/// A corner of a core that is a rectangle, of which one width is 0: k from 0 to 4, around it.
-WEFT_INLINE real3 corner_of_core(float4 core, int k) {
-    const float first = k == 1 || k == 2 ? -1.0f : 1.0f;
-    const float second = k == 2 || k == 3 ? -1.0f : 1.0f;
-    return make3(splat(first * core.x), splat((core.x > 0.0f ? second : first) * core.y),
-                 splat(second * core.z));
-}
-
-WEFT_INLINE way_to_core from_rectangle(corners3 t, float4 core) {
-    const real zero = splat(0.0f);
-    const real one = splat(1.0f);
-    way_to_core found = from_corner(t.a, make3(one, zero, zero), core);
-    found = shorter(found, from_corner(t.b, make3(zero, one, zero), core));
-    found = shorter(found, from_corner(t.c, make3(zero, zero, one), core));
-    for (int k = 0; k < 4; ++k) {
-        found = shorter(found, from_edges(t, corner_of_core(core, k), corner_of_core(core, k + 1)));
-    }
-    return found;
-}
-
 /// How many dimensions it has: 0 to 2.
 WEFT_INLINE int dimensions_of_core(float4 core) {
     return (core.x > 0.0f ? 1 : 0) + (core.y > 0.0f ? 1 : 0) + (core.z > 0.0f ? 1 : 0);
+}
+
+/// A corner of the core, from 0 on: around a rectangle, or a segment's ends.
+WEFT_INLINE real3 corner_of_core(float4 core, int k) {
+    const float first = k == 1 || k == 2 ? -1.0f : 1.0f;
+    const float second = k == 2 || k == 3 ? -1.0f : 1.0f;
+    const int is_y_second = core.x > 0.0f;
+    const int is_z_second = core.x > 0.0f || core.y > 0.0f;
+    return make3(splat(first * core.x), splat((is_y_second ? second : first) * core.y),
+                 splat((is_z_second ? second : first) * core.z));
+}
+
+/// Segments and rectangles in one loop: compilers for OpenCL take long over much code.
+WEFT_INLINE way_to_core way_to(corners3 t, float4 core) {
+    const int dimensions = dimensions_of_core(core);
+    if (dimensions == 0) return from_triangle(t, corner_of_core(core, 0));
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const real3 none = make3(zero, zero, zero);
+    way_to_core found = {none, none, splat(3e38f)};
+    if (dimensions == 2) {
+        found = from_corner(t.a, make3(one, zero, zero), core);
+        found = shorter(found, from_corner(t.b, make3(zero, one, zero), core));
+        found = shorter(found, from_corner(t.c, make3(zero, zero, one), core));
+    }
+    const int edges = dimensions == 1 ? 1 : 4;
+    for (int k = 0; k < edges; ++k) {
+        found = shorter(found, from_edges(t, corner_of_core(core, k), corner_of_core(core, k + 1)));
+    }
+    return found;
 }
 
 /// Where a triangle and a core are closest.
@@ -139,12 +149,7 @@ WEFT_INLINE core_meeting choose_meeting(mask holds, core_meeting m, core_meeting
 /// any way out is as short.
 WEFT_INLINE core_meeting meet_core(corners3 t, float4 core) {
     const real zero = splat(0.0f);
-    const int dimensions = dimensions_of_core(core);
-    const real3 tip = make3(splat(core.x), splat(core.y), splat(core.z));
-    way_to_core found;
-    if (dimensions == 0) found = from_triangle(t, tip);
-    if (dimensions == 1) found = from_edges(t, tip, scale(tip, splat(-1.0f)));
-    if (dimensions == 2) found = from_rectangle(t, core);
+    const way_to_core found = way_to(t, core);
     core_meeting m;
     m.weights = found.weights;
     m.at = add(weighted3(t, found.weights), found.way);
@@ -188,10 +193,12 @@ WEFT_INLINE core_meeting meet_core_on_way(corners3 start, corners3 end, core_mee
     ways.b = subtract(end.b, start.b);
     ways.c = subtract(end.c, start.c);
     real part = splat(0.0f);
-    core_meeting m = meet_core(start, core);
-    for (int k = 0; k < WEFT_CORE_STEPS; ++k) {
-        if (!any_item(both(m.distance > close, part < one))) break;
-        part = m.distance > close ? advance_to_core(m, ways, part, distance) : part;
+    core_meeting m = there;
+    for (int k = 0; k <= WEFT_CORE_STEPS; ++k) {
+        if (k > 0) {
+            if (!any_item(both(m.distance > close, part < one))) break;
+            part = m.distance > close ? advance_to_core(m, ways, part, distance) : part;
+        }
         m = meet_core(advanced3(start, ways, part), core);
     }
     const mask met = both(m.distance <= close, part < one);

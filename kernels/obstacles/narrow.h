@@ -19,13 +19,26 @@ WEFT_INLINE real farthest_way(corners3 start, corners3 end) {
     return square_root(larger(dot3(a, a), larger(dot3(b, b), dot3(c, c))));
 }
 
-/// [m] from one of its corners to the farthest: all of the triangle is no farther.
-WEFT_INLINE real size_around(real3 corner, corners3 t) {
-    const real3 a = subtract(t.a, corner);
-    const real3 b = subtract(t.b, corner);
-    const real3 c = subtract(t.c, corner);
-    return square_root(larger(dot3(a, a), larger(dot3(b, b), dot3(c, c))));
+/// [m] from the core to the nearest corner.
+WEFT_INLINE real nearest_corner(corners3 t, float4 core) {
+    const real3 a = subtract(t.a, nearest_of_core(t.a, core));
+    const real3 b = subtract(t.b, nearest_of_core(t.b, core));
+    const real3 c = subtract(t.c, nearest_of_core(t.c, core));
+    return square_root(smaller(dot3(a, a), smaller(dot3(b, b), dot3(c, c))));
 }
+
+/// [m] no point of a triangle is farther from its nearest corner: where all edges are as long as
+/// the longest, its middle is.
+WEFT_INLINE real most_inside(corners3 t) {
+    const real3 ab = subtract(t.b, t.a);
+    const real3 bc = subtract(t.c, t.b);
+    const real3 ca = subtract(t.a, t.c);
+    const real longest = larger(dot3(ab, ab), larger(dot3(bc, bc), dot3(ca, ca)));
+    return square_root(longest) * splat(0.578f);
+}
+
+/// A corner of less weight has no part in where a triangle meets an obstacle.
+#define WEFT_HAS_PART 0.01f
 
 /// Where corners are held, others move for them, but no further than so many times the depth.
 #define WEFT_MOST_FOR_OTHERS 4.0f
@@ -49,14 +62,16 @@ WEFT_INLINE real share_of_push(core_meeting m, real3 inverse_masses, real weight
 /// obstacles   [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see contact.h
 /// planes      [narrow obstacles * vertex_count] column-major, written: xyz: the normal, w: where
 ///             it is along it [m]; a normal of 0: none
+/// depths      [narrow obstacles * vertex_count] column-major, written where `notes` is not 0: how
+///             deep in the obstacle triangles were near the vertex, the most in the frame so far [m]
 /// slots       the most triangles at a vertex
 /// reach       [m] a vertex farther away has no triangle that meets it
 /// obstacle    which one, and `narrow` among those that have planes
 WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const int* corners,
                    WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL float4* planes,
-                   int vertex_count, int slots, float reach, int obstacle_count, int obstacle,
-                   int narrow, int substep) {
+                   WEFT_GLOBAL float* depths, int notes, int vertex_count, int slots, float reach,
+                   int obstacle_count, int obstacle, int narrow, int substep) {
     WEFT_GLOBAL const float4* o =
         obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
     const float4 core = core_of(o);
@@ -72,6 +87,7 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
 
     real3 normal = make3(zero, zero, zero);
     real most = zero;
+    real deepest = zero;
     const mask is_near = both(x.w > zero, away < near);
     if (any_item(is_near)) {
         for (int k = 0; k < slots; ++k) {
@@ -91,26 +107,33 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
                                     local_at_start(o, xyz(gather4(previous, at_c)))};
             const real way = farthest_way(start, end);
             const mask is_there = both(is_near, one >= none);
-            const mask may_meet = both(is_there, away < keep + way + size_around(own_end, end));
+            const mask may_meet =
+                both(is_there, nearest_corner(end, core) < keep + way + most_inside(end));
             if (!any_item(may_meet)) continue;
-            core_meeting m = meet_core(end, core);
             const mask is_swept = both(may_meet, way * way >= splat(o[7].z));
+            core_meeting m = meet_core(end, core);
             if (any_item(is_swept)) {
                 const core_meeting met = meet_core_on_way(start, end, m, core, keep);
                 m = choose_meeting(is_swept, met, m);
             }
             const real3 inverse_masses = make3(x_a.w, x_b.w, x_c.w);
             const real weight = self == one ? m.weights.x : self == two ? m.weights.y : m.weights.z;
-            const real push = share_of_push(m, inverse_masses, weight, x.w, keep - m.distance);
+            const real depth = keep - m.distance;
+            const real push = share_of_push(m, inverse_masses, weight, x.w, depth);
             const mask counts = both(may_meet, push > most);
             most = counts ? push : most;
             normal = either(counts, m.normal, normal);
+            const mask is_here = both(may_meet, weight > splat(WEFT_HAS_PART));
+            deepest = both(is_here, depth > deepest) ? depth : deepest;
         }
     }
     const real3 out = apply_back(o, normal);
     const real there = dot3(out, xyz(x)) + most;
     const real nowhere = splat(-3e38f);
     store4(planes, column(i, vertex_count, narrow), with_w(out, most > zero ? there : nowhere));
+    if (notes == 0) return;
+    const real before = substep == 0 ? zero : load(depths, column(i, vertex_count, narrow));
+    store(depths, column(i, vertex_count, narrow), larger(deepest, before));
 }
 
 WEFT_KERNELS_END

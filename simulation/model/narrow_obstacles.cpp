@@ -84,7 +84,8 @@ NarrowObstacles::NarrowObstacles(std::vector<int> numbers, int count, const Movi
       reach_(4.0 * longest),  // edges that are stretched to that are looked at
       slots_(most_at_a_vertex(surface)),
       corners_("obstacles.corners", 3 * at(slots_) * at(vertex_count_)),
-      planes_("obstacles.planes", at(count) * at(vertex_count_)) {
+      planes_("obstacles.planes", at(count) * at(vertex_count_)),
+      depths_("obstacles.depths", at(count) * at(vertex_count_)) {
     fill_corners(surface);
 }
 
@@ -103,20 +104,19 @@ void NarrowObstacles::fill_corners(const MovingSurface& surface) {
 
 void NarrowObstacles::add_launches(std::vector<Launch>& launches, const Segments& vertices,
                                    Buffer<float4>& positions, Buffer<float4>& previous,
-                                   Buffer<float4>& placements) {
+                                   Buffer<float4>& placements, bool notes) {
     const auto obstacle_count = static_cast<int>(numbers_.size());
     for (int o = 0; o < obstacle_count; ++o) {
         if (number_of(o) < 0) continue;
         launches.push_back(launch(kernels::find_obstacle_planes, vertices, positions, previous,
-                                  corners_, placements, planes_, vertex_count_, slots_,
-                                  static_cast<float>(reach_), obstacle_count, o, number_of(o),
-                                  kInstance));
+                                  corners_, placements, planes_, depths_, notes ? 1 : 0,
+                                  vertex_count_, slots_, static_cast<float>(reach_), obstacle_count,
+                                  o, number_of(o), kInstance));
     }
 }
 
 double NarrowObstacles::depth(const Obstacle& obstacle, const Frame& frame, int vertex,
                               std::span<const float4> positions) const {
-    constexpr float kCounts = 0.01f;  // of a corner's weight
     const float4 core = core_of(obstacle);
     const auto local = [&](int v) { return to_real3(frame.to_local(to_vec3(positions[at(v)]))); };
     const kernels::real3 own = local(vertex);
@@ -134,7 +134,7 @@ double NarrowObstacles::depth(const Obstacle& obstacle, const Frame& frame, int 
         const float weight = t[0] == vertex   ? m.weights.x
                              : t[1] == vertex ? m.weights.y
                                               : m.weights.z;
-        if (weight > kCounts) nearest = std::min(nearest, m.distance);
+        if (weight > WEFT_HAS_PART) nearest = std::min(nearest, m.distance);
     }
     return static_cast<double>(core.w - nearest);
 }

@@ -25,10 +25,11 @@ public:
                                                const MovingSurface& surface);
 
     /// One launch per narrow obstacle, that finds the planes.
-    /// vertices: one segment per strip; placements: of all obstacles; others as in the kernel
+    /// vertices: one segment per strip; placements: of all obstacles; notes: depths, too, behind a
+    /// substep's last push; others as in the kernel
     void add_launches(std::vector<Launch>& launches, const Segments& vertices,
                       Buffer<float4>& positions, Buffer<float4>& previous,
-                      Buffer<float4>& placements);
+                      Buffer<float4>& placements, bool notes);
 
     /// Its number among narrow ones; -1: it is none.
     int number_of(int obstacle) const { return numbers_[static_cast<std::size_t>(obstacle)]; }
@@ -38,6 +39,9 @@ public:
     int vertex_count() const { return vertex_count_; }
     /// [vertex_count() * count()] column-major
     Buffer<float4>& planes() { return planes_; }
+    /// [vertex_count() * count()] column-major: how deep in each obstacle substeps of the frame
+    /// have left the triangles around each vertex [m].
+    Buffer<float>& depths() { return depths_; }
 
     /// How deep a triangle around the vertex is in the obstacle, which is at `frame`, somewhere
     /// where the vertex counts [m]; negative: that far from it, or there is nothing near.
@@ -56,6 +60,7 @@ private:
     int slots_;  ///< the most triangles at a vertex
     Buffer<int> corners_;
     Buffer<float4> planes_;
+    Buffer<float> depths_;
 };
 
 }  // namespace weft

@@ -41,6 +41,7 @@ FrameJudge::FrameJudge(LiveModel& live, OnTrouble on_trouble, OnCrossing on_cros
     if (on_trouble == OnTrouble::kIgnore) return;
     const Model& model = live.model();
     samples_.emplace(model, threads);
+    if (model.obstacles && model.obstacles->narrow() != nullptr) narrow_.emplace();
     if (!model.scene.contact) return;
     crossings_.emplace(model, on_crossing == OnCrossing::kWarn);
     if (!model.convex_obstacles.empty()) inside_.emplace();
@@ -91,18 +92,27 @@ Verdict FrameJudge::judge(const Ran& ran, const Alarm& alarm) {
     return {};
 }
 
-/// By what contact has left inside obstacles.
+/// By what contact, or too few iterations, have left inside obstacles.
 Verdict FrameJudge::judge_obstacles(const Ran& ran) {
+    if (narrow_) {
+        NarrowObstacles& narrow = *live_.model().obstacles->narrow();
+        live_.executor().fetch(narrow.depths());
+        const Verdict verdict = judge(ran, narrow_->look(live_.model(), narrow), *narrow_);
+        if (verdict.kind != Verdict::Kind::kKeep) return verdict;
+    }
     if (!inside_) return {};
     ContactResponse* contact = fetch_contact();
     const auto cuts = contact->cut_counts().span();
     if (std::ranges::none_of(cuts, [](int count) { return count > 0; })) return {};
     live_.executor().fetch(contact->insides()->depths());
     live_.executor().fetch(contact->insides()->obstacles());
-    const auto alarm = inside_->look(live_.model(), *contact);
+    return judge(ran, inside_->look(live_.model(), *contact), *inside_);
+}
+
+Verdict FrameJudge::judge(const Ran& ran, const std::optional<Alarm>& alarm, InsideChecks& checks) {
     if (!alarm) return {};
     const Verdict verdict = judge(ran, *alarm);
-    if (verdict.kind == Verdict::Kind::kKeep) inside_->told();
+    if (verdict.kind == Verdict::Kind::kKeep) checks.told();
     return verdict;
 }
 

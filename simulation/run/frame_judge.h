@@ -67,6 +67,7 @@ private:
     Verdict judge(const Ran& ran, const Alarm& alarm);
     Verdict judge(const Ran& ran, const Watch::Look& look, const StepEstimate& estimate);
     Verdict judge_obstacles(const Ran& ran);
+    Verdict judge(const Ran& ran, const std::optional<Alarm>& alarm, InsideChecks& checks);
     std::string given_up() const;
     std::optional<StepEstimate> estimate();
     void tell_of_tolerance(int frame, double error);
@@ -81,6 +82,7 @@ private:
     std::optional<ErrorSamples> samples_;      ///< none: nothing is estimated
     std::optional<CrossingChecks> crossings_;  ///< none: no contact, or energies are not looked at
     std::optional<InsideChecks> inside_;       ///< likewise, or no obstacle to be inside of
+    std::optional<InsideChecks> narrow_;       ///< none: no narrow obstacle, or as above
     Troubles troubles_;
     bool tolerance_told_ = false;
 };

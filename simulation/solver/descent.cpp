@@ -36,6 +36,11 @@ void DescentSubstep::add_narrow(Step& step, const std::vector<Region>& regions, 
     if (narrow_) narrow_->add(step, regions, iteration, iterate);
 }
 
+void DescentSubstep::add_last_narrow(Step& step, const std::vector<Region>& regions, int iteration,
+                                     std::size_t iterate) {
+    if (narrow_) narrow_->add_last(step, regions, iteration, iterate);
+}
+
 void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);

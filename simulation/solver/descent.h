@@ -36,6 +36,9 @@ public:
     void add_first_narrow(Step& step, const std::vector<Region>& regions);
     void add_narrow(Step& step, const std::vector<Region>& regions, int iteration,
                     std::size_t iterate = 0);
+    /// Behind the last one of all.
+    void add_last_narrow(Step& step, const std::vector<Region>& regions, int iteration,
+                         std::size_t iterate = 0);
     /// Whether that does anything.
     bool has_narrow() const { return narrow_ != nullptr; }
 

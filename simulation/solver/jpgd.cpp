@@ -131,6 +131,8 @@ public:
             substep_.add_narrow(step, regions, i, static_cast<std::size_t>((i + 1) % 2));
         }
         add_check(step, regions, iterations_);
+        substep_.add_last_narrow(step, regions, iterations_,
+                                 static_cast<std::size_t>(iterations_ % 2));
         substep_.momentum().add_sums(step, regions, iterations_);
         for (const Region& region : regions) add_velocities(step, region);
         substep_.add_measurements(step, regions, iterations_);

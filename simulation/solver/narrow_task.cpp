@@ -4,6 +4,13 @@
 
 namespace weft {
 
+namespace {
+
+/// Behind the last iteration. With none, blades of 2 mm cut cloth with cells of 3 cm.
+constexpr int kMoreRounds = 5;
+
+}  // namespace
+
 std::unique_ptr<NarrowTask> NarrowTask::of(Model& model, Setting setting, int first_kind) {
     if (!model.obstacles || model.obstacles->narrow() == nullptr) return nullptr;
     return std::unique_ptr<NarrowTask>(new NarrowTask(model, std::move(setting), first_kind));
@@ -12,17 +19,19 @@ std::unique_ptr<NarrowTask> NarrowTask::of(Model& model, Setting setting, int fi
 NarrowTask::NarrowTask(Model& model, Setting setting, int first_kind)
     : model_(model), setting_(std::move(setting)), halo_(model) {
     for (Buffer<float4>* positions : setting_.iterates) {
-        finds_.push_back({"obstacle-planes", first_kind, find(*positions)});
+        finds_.push_back({"obstacle-planes", first_kind, find(*positions, false)});
+        notes_.push_back({finds_[0].name, first_kind, find(*positions, true)});
         pushes_.push_back({"obstacle-push", first_kind + 1, push(*positions)});
         add_last_word(pushes_.back().launches, *positions);
     }
     first_push_ = {pushes_[0].name, first_kind + 1, push(*setting_.iterates[0])};
 }
 
-std::vector<Launch> NarrowTask::find(Buffer<float4>& positions) {
+std::vector<Launch> NarrowTask::find(Buffer<float4>& positions, bool notes) {
     std::vector<Launch> launches;
     model_.obstacles->narrow()->add_launches(launches, model_.vertices(), positions,
-                                             *model_.previous, model_.obstacles->placements());
+                                             *model_.previous, model_.obstacles->placements(),
+                                             notes);
     return launches;
 }
 
@@ -42,17 +51,20 @@ void NarrowTask::add_last_word(std::vector<Launch>& launches, Buffer<float4>& po
 void NarrowTask::list_bodies(std::vector<const TaskBody*>& bodies) const {
     for (const TaskBody& body : finds_) bodies.push_back(&body);
     for (const TaskBody& body : pushes_) bodies.push_back(&body);
+    for (const TaskBody& body : notes_) bodies.push_back(&body);
     bodies.push_back(&first_push_);
 }
 
 void NarrowTask::add_first(Step& step, const std::vector<Region>& regions) {
-    for (const Region& region : regions) add_find(step, region, 0, 0);
+    for (const Region& region : regions) add_find(step, finds_[0], region, 0, 0);
     for (const Region& region : regions) add_push(step, first_push_, region, 0, 0);
 }
 
 void NarrowTask::add(Step& step, const std::vector<Region>& regions, int iteration,
                      std::size_t iterate) {
-    for (const Region& region : regions) add_find(step, region, iteration, iterate);
+    for (const Region& region : regions) {
+        add_find(step, finds_[iterate], region, iteration, iterate);
+    }
     for (const Region& region : regions) {
         auto task = add_push(step, pushes_[iterate], region, iteration, iterate);
         if (setting_.contact == nullptr) continue;
@@ -64,14 +76,24 @@ void NarrowTask::add(Step& step, const std::vector<Region>& regions, int iterati
     }
 }
 
-void NarrowTask::add_find(Step& step, const Region& region, int iteration, std::size_t iterate) {
+void NarrowTask::add_last(Step& step, const std::vector<Region>& regions, int iteration,
+                          std::size_t iterate) {
+    for (int round = 0; round < kMoreRounds; ++round) add(step, regions, iteration, iterate);
+    for (const Region& region : regions) {
+        add_find(step, notes_[iterate], region, iteration, iterate);
+    }
+}
+
+void NarrowTask::add_find(Step& step, const TaskBody& body, const Region& region, int iteration,
+                          std::size_t iterate) {
     NarrowObstacles& narrow = *model_.obstacles->narrow();
     const int first = model_.vertices().item(region.begin);
     const int last = model_.vertices().item(region.end);
     const auto [begin, end] = halo_.around(first, last);
-    auto task = step.add(finds_[iterate], iteration, region.strips(), region.id);
+    auto task = step.add(body, iteration, region.strips(), region.id);
     task.reads(*setting_.iterates[iterate], begin, end).reads(*model_.previous, begin, end);
     add_columns(task, narrow.planes(), narrow.vertex_count(), narrow.count(), first, last, true);
+    add_columns(task, narrow.depths(), narrow.vertex_count(), narrow.count(), first, last, true);
 }
 
 Step::Adding NarrowTask::add_push(Step& step, const TaskBody& body, const Region& region,

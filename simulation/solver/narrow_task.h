@@ -37,20 +37,25 @@ public:
     /// Behind an iteration. iterate: where it ended
     void add(Step& step, const std::vector<Region>& regions, int iteration,
              std::size_t iterate = 0);
+    /// Behind the last one, more of the same, as triangles push each other's corners; what that
+    /// leaves within obstacles is noted (NarrowObstacles::depths()).
+    void add_last(Step& step, const std::vector<Region>& regions, int iteration,
+                  std::size_t iterate = 0);
 
 private:
     NarrowTask(Model& model, Setting setting, int first_kind);
-    std::vector<Launch> find(Buffer<float4>& positions);
+    std::vector<Launch> find(Buffer<float4>& positions, bool notes);
     std::vector<Launch> push(Buffer<float4>& positions);
     void add_last_word(std::vector<Launch>& launches, Buffer<float4>& positions);
-    void add_find(Step& step, const Region& region, int iteration, std::size_t iterate);
+    void add_find(Step& step, const TaskBody& body, const Region& region, int iteration,
+                  std::size_t iterate);
     Step::Adding add_push(Step& step, const TaskBody& body, const Region& region, int iteration,
                           std::size_t iterate);
 
     Model& model_;
     Setting setting_;
     Halo halo_;
-    std::vector<TaskBody> finds_, pushes_;  ///< [iterates]
+    std::vector<TaskBody> finds_, pushes_, notes_;  ///< [iterates]
     TaskBody first_push_;
 };
 

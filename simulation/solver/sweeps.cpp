@@ -80,6 +80,7 @@ Step SweepSolver::make_step(const Partition& partition) {
         add_iteration(step, regions, i);
         substep_.add_narrow(step, regions, i);
     }
+    substep_.add_last_narrow(step, regions, iterations - 1);
     substep_.momentum().add_sums(step, regions, iterations - 1);
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);

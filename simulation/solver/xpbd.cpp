@@ -105,9 +105,11 @@ public:
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
-        if (momentum_) momentum_->add_sums(step, regions, model_.scene.solver.iterations - 1);
+        const int last = model_.scene.solver.iterations - 1;
+        if (narrow_) narrow_->add_last(step, regions, last);
+        if (momentum_) momentum_->add_sums(step, regions, last);
         for (const Region& region : regions) add_velocities(step, region);
-        if (contact_) contact_->energy().add(step, regions, model_.scene.solver.iterations - 1);
+        if (contact_) contact_->energy().add(step, regions, last);
         step.seal();
         return step;
     }

@@ -38,6 +38,7 @@ struct Meeting {
     Buffer<float4> rows{"obstacles", WEFT_OBSTACLE_ROWS};
     Buffer<int> corners{"corners", 9};
     Buffer<float4> planes{"planes", 3};
+    Buffer<float> depths{"depths", 3};
     Shape shape;
 
     Meeting(const Shape& of, std::array<float4, 3> from, std::array<float4, 3> to) : shape(of) {
@@ -57,10 +58,10 @@ struct Meeting {
         }
     }
 
-    void find() {
+    void find(int substep = 0) {
         const Launch launched =
             launch(kernels::find_obstacle_planes, Segments{}, positions, previous, corners, rows,
-                   planes, 3, 1, /*reach=*/8.0f, 1, 0, 0, 0);
+                   planes, depths, /*notes=*/1, 3, 1, /*reach=*/8.0f, 1, 0, 0, substep);
         run_on_host(launched, launched.kernel->scalar, 0, 3);
     }
     /// By the planes alone: corners are nowhere near a sphere of that size.
@@ -160,6 +161,27 @@ TEST(NarrowObstacles, TrianglesDoNotPassInOneStep) {
         beside.keep_out(20);
         EXPECT_EQ(beside.middle().y, static_cast<double>(end)) << "it does not come by";
     }
+}
+
+TEST(NarrowObstacles, TheMostDepthOfAFrameIsNoted) {
+    const auto at = [](float y) {
+        return std::array<float4, 3>{float4{-1.0f, y, 0.0f, 0}, float4{1.0f, y, -0.8f, 0},
+                                     float4{1.0f, y, 0.8f, 0}};
+    };
+    Meeting meeting(kSphere, at(0.2f), at(0.2f));
+    const auto expect = [&](float depth) {
+        for (const float noted : meeting.depths.span()) EXPECT_NEAR(noted, depth, 1e-6f);
+    };
+    meeting.find();
+    expect(0.3125f - 0.2f);
+    for (float4& x : meeting.positions.span()) x.y = 0.3f;
+    meeting.find(1);
+    expect(0.3125f - 0.2f);
+    meeting.find();
+    expect(0.3125f - 0.3f);
+    for (float4& x : meeting.positions.span()) x.y = 0.4f;
+    meeting.find();
+    expect(0.0f);
 }
 
 TEST(NarrowObstacles, HeldCornersStayAndOthersMoveForThem) {

@@ -135,10 +135,13 @@ void planes_case(KernelCase& c, Buffer<float4>& obstacles) {
         }
     }
     auto& planes = c.add<float4>("planes", 2 * c.items);
+    auto& depths = c.add<float>("depths", 2 * c.items);
+    for (float& depth : depths.span()) depth = std::max(0.0f, c.random.real(-0.2f, 0.2f));
+    const int notes = c.random.integer(0, 1);
     const float reach = c.random.integer(0, 1) == 0 ? 0.2f : 5.0f;
-    c.launch =
-        launch(kernels::find_obstacle_planes, c.segments, moved.positions, moved.previous, corners,
-               obstacles, planes, c.items, kSlots, reach, kObstacles, 1, 1, kInstance);
+    c.launch = launch(kernels::find_obstacle_planes, c.segments, moved.positions, moved.previous,
+                      corners, obstacles, planes, depths, notes, c.items, kSlots, reach, kObstacles,
+                      1, 1, kInstance);
 }
 
 /// Contact has taken back a quarter of the vertices.

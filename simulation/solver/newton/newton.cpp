@@ -123,6 +123,7 @@ public:
         add_check(step);
         for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
+        substep_.add_last_narrow(step, regions_, number_);
         substep_.momentum().add_sums(step, regions_, number_);
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
         substep_.add_measurements(step, regions_, number_);

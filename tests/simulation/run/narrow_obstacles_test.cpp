@@ -128,6 +128,52 @@ TEST_P(Narrow, BlockLiesOnTwoRods) {
     EXPECT_LT(y, 0.03) << "freely, it would have fallen by 0.54 m";
 }
 
+/// A blade of 2 mm below a sheet with cells of 5 cm, which falls onto it.
+const std::string kBlade = R"(
+[[obstacle]]
+name = "blade"
+shape = "box"
+center = [0.0, -0.4, 0.0]
+size = [0.002, 0.6, 2.0]
+friction = 0.3
+)";
+
+TEST_P(Narrow, SheetIsNotCutByABlade) {
+    ManualRun run(scene_of(kSheet + kBlade));
+    run.run(30);
+    const auto x = positions(run);
+    const auto crosses = [&](int a, int b) {
+        const Vec3 from = at(x, a), to = at(x, b);
+        if (from.x * to.x >= 0.0) return false;
+        const double y = from.y + (to.y - from.y) * from.x / (from.x - to.x);
+        return y < -0.105 && y > -0.695;
+    };
+    int cut = 0;
+    for (const auto& t : run.model->triangles) {
+        for (std::size_t k = 0; k < 3; ++k) cut += crosses(t[k], t[(k + 1) % 3]) ? 1 : 0;
+    }
+    EXPECT_EQ(cut, 0);
+}
+
+/// A ball of 2 cm that goes through a sheet held by its corners, whatever is done.
+const std::string kShot = R"(
+pins = { corners = ["x-z-", "x+z-", "x-z+", "x+z+"] }
+[[obstacle]]
+name = "shot"
+shape = "sphere"
+center = [0.01, 0.5, 0.015]
+radius = 0.01
+motion = { velocity = [0.0, -100.0, 0.0] }
+)";
+
+TEST_P(Narrow, WhatGoesThroughIsTold) {
+    Simulation simulation = simulation_of(scene_of(kSheet + kShot));
+    for (int frame = 0; frame < 3; ++frame) simulation.advance();
+    EXPECT_TRUE(std::ranges::any_of(simulation.troubles(), [](const Trouble& trouble) {
+        return trouble.what.find("obstacle 'shot' has come up to") != std::string::npos;
+    }));
+}
+
 /// What the run checks after each frame knows what such obstacles hold, and how they move.
 TEST_P(Narrow, RunsHaveNoDoubts) {
     Scene scene = scene_of(kSheet + kLine);
