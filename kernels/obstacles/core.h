@@ -108,6 +108,34 @@ WEFT_INLINE real3 corner_of_core(float4 core, int k) {
                  splat((is_z_second ? second : first) * core.z));
 }
 
+/// How far a point is from a rectangle's border, seen from above it [m]; negative: it is beyond.
+WEFT_INLINE real inside_border(real3 p, float4 core) {
+    const real far = splat(3e38f);
+    const real x = core.x > 0.0f ? splat(core.x) - larger(p.x, splat(0.0f) - p.x) : far;
+    const real y = core.y > 0.0f ? splat(core.y) - larger(p.y, splat(0.0f) - p.y) : far;
+    const real z = core.z > 0.0f ? splat(core.z) - larger(p.z, splat(0.0f) - p.z) : far;
+    return smaller(x, smaller(y, z));
+}
+
+/// Along the rectangle's normal [m].
+WEFT_INLINE real height_above(real3 p, float4 core) {
+    const real y_or_z = core.y > 0.0f ? p.z : p.y;
+    return core.x > 0.0f ? y_or_z : p.x;
+}
+
+/// A triangle that lies above a rectangle, all on one side: a corner of it is nearest.
+WEFT_INLINE mask lies_above(corners3 t, float4 core) {
+    const real border = smaller(inside_border(t.a, core),
+                                smaller(inside_border(t.b, core), inside_border(t.c, core)));
+    const real a = height_above(t.a, core);
+    const real b = height_above(t.b, core);
+    const real c = height_above(t.c, core);
+    const real lowest = smaller(a, smaller(b, c));
+    const real highest = larger(a, larger(b, c));
+    const real zero = splat(0.0f);
+    return both(border >= zero, larger(lowest, zero - highest) > zero);
+}
+
 /// Segments and rectangles in one loop: compilers for OpenCL take long over much code.
 WEFT_INLINE way_to_core way_to(corners3 t, float4 core) {
     const int dimensions = dimensions_of_core(core);
@@ -116,14 +144,19 @@ WEFT_INLINE way_to_core way_to(corners3 t, float4 core) {
     const real one = splat(1.0f);
     const real3 none = make3(zero, zero, zero);
     way_to_core found = {none, none, splat(3e38f)};
+    real most = splat(3e38f);  // squared, of what else counts [m^2]
     if (dimensions == 2) {
         found = from_corner(t.a, make3(one, zero, zero), core);
         found = shorter(found, from_corner(t.b, make3(zero, one, zero), core));
         found = shorter(found, from_corner(t.c, make3(zero, zero, one), core));
+        most = lies_above(t, core) ? zero : most;
+        if (!any_item(most > zero)) return found;
     }
     const int edges = dimensions == 1 ? 1 : 4;
     for (int k = 0; k < edges; ++k) {
-        found = shorter(found, from_edges(t, corner_of_core(core, k), corner_of_core(core, k + 1)));
+        way_to_core other = from_edges(t, corner_of_core(core, k), corner_of_core(core, k + 1));
+        other.square = most > zero ? other.square : splat(3e38f);
+        found = shorter(found, other);
     }
     return found;
 }

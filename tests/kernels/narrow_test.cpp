@@ -107,13 +107,25 @@ std::array<float4, 3> random_triangle(Random& random) {
     return {random.point(1.5f), random.point(1.5f), random.point(1.5f)};
 }
 
+/// Some of these lie above a plate.
+std::array<float4, 3> small_triangle(Random& random) {
+    std::array<float4, 3> t = {random.point(0.25f), random.point(0.25f), random.point(0.25f)};
+    const float4 place = random.point(0.75f);
+    for (float4& corner : t) {
+        corner.x += place.x;
+        corner.y += place.y;
+        corner.z += place.z;
+    }
+    return t;
+}
+
 kernels::real3 real(const float4& v) { return kernels::make3(v.x, v.y, v.z); }
 
 TEST(NarrowObstacles, TrianglesAreAsFarAsLookingEverywhereSays) {
     Random random(5);
     for (const Shape& shape : kShapes) {
-        for (int n = 0; n < 60; ++n) {
-            const auto t = random_triangle(random);
+        for (int n = 0; n < 120; ++n) {
+            const auto t = n % 2 == 0 ? random_triangle(random) : small_triangle(random);
             const Meeting meeting(shape, t, t);
             const auto met = kernels::meet_core({real(t[0]), real(t[1]), real(t[2])},
                                                 kernels::core_of(meeting.rows.data()));
