@@ -187,7 +187,7 @@ WEFT_INLINE nearness or_from_plane(nearness near, real3 x, real4 plane, float th
         const real zero = splat(0.0f);                                                           \
         nearness near = near_##shape(end, o[6]);                                                 \
         if (!any_item(too_far >= zero)) return near;                                             \
-        /* What is farther than it has gone has come from farther than the thickness. */         \
+        /* What is farther from the thickness than it has gone has met nothing on its way. */    \
         const real3 begin = local_at_start(o, start);                                            \
         const real reach = length3(subtract(end, begin)) + splat(o[7].x) - near.distance;        \
         const real swept = too_far >= zero ? reach : splat(-1.0f);                               \

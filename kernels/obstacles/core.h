@@ -144,18 +144,18 @@ WEFT_INLINE way_to_core way_to(corners3 t, float4 core) {
     const real one = splat(1.0f);
     const real3 none = make3(zero, zero, zero);
     way_to_core found = {none, none, splat(3e38f)};
-    real most = splat(3e38f);  // squared, of what else counts [m^2]
+    real edges_count = one;  // 0: a corner is nearest
     if (dimensions == 2) {
         found = from_corner(t.a, make3(one, zero, zero), core);
         found = shorter(found, from_corner(t.b, make3(zero, one, zero), core));
         found = shorter(found, from_corner(t.c, make3(zero, zero, one), core));
-        most = lies_above(t, core) ? zero : most;
-        if (!any_item(most > zero)) return found;
+        edges_count = lies_above(t, core) ? zero : one;
+        if (!any_item(edges_count > zero)) return found;
     }
     const int edges = dimensions == 1 ? 1 : 4;
     for (int k = 0; k < edges; ++k) {
         way_to_core other = from_edges(t, corner_of_core(core, k), corner_of_core(core, k + 1));
-        other.square = most > zero ? other.square : splat(3e38f);
+        other.square = edges_count > zero ? other.square : splat(3e38f);
         found = shorter(found, other);
     }
     return found;
