@@ -41,6 +41,8 @@ WEFT_INLINE real length3(real3 a) { return square_root(dot3(a, a)); }
 
 WEFT_INLINE real smaller(real a, real b) { return a < b ? a : b; }
 WEFT_INLINE real larger(real a, real b) { return a > b ? a : b; }
+/// |a|
+WEFT_INLINE real size_of(real a) { return larger(a, -a); }
 
 /// A length to divide by: never 0, so a vector of length 0 stays 0 instead of becoming NaN.
 WEFT_INLINE real divisor(real length) { return larger(length, splat(1e-20f)); }

@@ -120,8 +120,6 @@ typedef struct {
     real stiffness;  ///< [N/m]
 } contact_found;
 
-WEFT_INLINE real size_of(real a) { return larger(a, -a); }
-
 /// is_edges  1: x0 x1 and x2 x3 are edges; 0: x0 is a vertex and x1 x2 x3 a triangle
 WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_settings settings) {
     const real zero = splat(0.0f);

@@ -12,37 +12,55 @@
 //
 // All contacts are projected at once, from positions that all vertices share. So that those of one
 // vertex do not do its work several times over, each gets a part of its mass (Tonge, Benevolenski
-// and Voroshilov 2012): a vertex with n contacts is n times as light for each of them. All vertices
-// of a contact compute the same change of its multiplier, from the same numbers in the same order,
-// so what one of them gets, the others give.
+// and Voroshilov 2012), in proportion to its weight |w| there: for a contact of weight w the vertex
+// is S / |w| times as light, S being the sum of |w| over its contacts. In the first iteration that
+// is all of them, in others those that pressed in the one before: what does not press leaves the
+// mass to what does. (To count in the first iteration what presses where inertia leads was tried:
+// where more came to press, it was pushed too far, and stacks crept.) All vertices of a contact
+// compute the same change of its multiplier, from the same numbers in the same order, so what one
+// of them gets, the others give.
 
 #include "kernels/contact/rows.h"
 
 WEFT_KERNELS_BEGIN
 
+/// S of the first iteration. Parameters as in project_contacts.
+WEFT_INLINE real crowd_of(WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                          WEFT_GLOBAL const float4* measures, item i) {
+    const whole count = load_whole(counts, i);
+    const whole start = load_whole(rows, i);
+    const int longest = largest_whole(count);
+    real crowd = splat(0.0f);
+    for (int k = 0; k < longest; ++k) {
+        const mask on = splat_whole(k) < count;
+        const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
+        crowd = on ? crowd + gather4(measures, entry).x : crowd;
+    }
+    return crowd;
+}
+
 /// Lets all see where the elements have led the vertices that a contact may have.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]
-/// counts     [vertices] how many contacts each has
 /// least      [vertices] as fill_contacts leaves it
-/// snapshots  [2 * vertices] written: of odd iterations in the second half; w = 1/mass of the part
-///            of a contact [1/kg]
+/// snapshots  [2 * vertices] written: of odd iterations in the second half; w = S/mass [1/kg], but
+///            for the first iteration as project_contacts left it
 /// ahead      by how many iterations behind this one is that which is to see it
-WEFT_NARROW_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* counts,
+/// others as in project_contacts
+WEFT_NARROW_KERNEL(share_masses, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* rows,
+                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const float4* measures,
                    WEFT_GLOBAL const float* least, WEFT_GLOBAL float4* snapshots, int vertex_count,
                    int iteration, int ahead) {
     const mask has_pairs = load(least, i) < splat(WEFT_NO_PLANE);
     if (!any_item(has_pairs)) return;
+    const item shown = column(i, vertex_count, (iteration + ahead) % 2);
     const real4 x = load4(positions, i);
-    const whole count = load_whole(counts, i);
-    const int longest = largest_whole(count);
-    real light = splat(0.0f);
-    for (int k = 0; k < longest; ++k) light = splat_whole(k) < count ? light + x.w : light;
-    store4_where(has_pairs, snapshots, column(i, vertex_count, (iteration + ahead) % 2),
-                 with_w(xyz(x), light));
+    const real light =
+        iteration == 0 ? x.w * crowd_of(rows, counts, measures, i) : load4(snapshots, shown).w;
+    store4_where(has_pairs, snapshots, shown, with_w(xyz(x), light));
 }
 
 /// How light a contact's vertices are together, with the parts of their masses that it has: the sum
-/// of w_j^2 / mass_j [1/kg]. Parameters as in project_contacts.
+/// of |w_j| S_j / mass_j [1/kg]. Parameters as in project_contacts.
 WEFT_INLINE real lightness_of(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL const int* corner0,
                               WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
                               WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* weights,
@@ -52,11 +70,12 @@ WEFT_INLINE real lightness_of(WEFT_GLOBAL const float4* snapshot, WEFT_GLOBAL co
     const real light1 = gather4(snapshot, address(gather_whole(corner1, entry))).w;
     const real light2 = gather4(snapshot, address(gather_whole(corner2, entry))).w;
     const real light3 = gather4(snapshot, address(gather_whole(corner3, entry))).w;
-    return w.x * w.x * light0 + w.y * w.y * light1 + w.z * w.z * light2 + w.w * w.w * light3;
+    return size_of(w.x) * light0 + size_of(w.y) * light1 + size_of(w.z) * light2 +
+           size_of(w.w) * light3;
 }
 
 /// By how much the multiplier of a contact changes.
-/// lightness  the sum of w_j^2 / mass_j [1/kg]
+/// lightness  the sum of |w_j| S_j / mass_j [1/kg]
 WEFT_INLINE real change_of_multiplier(contact_entry c, real multiplier, real lightness,
                                       float inverse_h2) {
     const real lack = multiplier * splat(inverse_h2) + contact_slope(c.gap, c.range, c.stiffness);
@@ -67,34 +86,38 @@ WEFT_INLINE real change_of_multiplier(contact_entry c, real multiplier, real lig
 
 /// Pushes vertices apart. Over all vertices.
 /// positions    [vertices] xyz [m], w = 1/mass [1/kg]; written where there are contacts
-/// snapshots    [2 * vertices] as share_masses leaves them
+/// snapshots    [2 * vertices] as share_masses leaves them; written: w of the next iteration, S no
+///              less than 1, as any contact may press then
 /// multipliers  [entries] l [N s^2]; taken as 0 in iteration 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// others as in gather_contacts (contact/rows.h)
-WEFT_NARROW_KERNEL(project_contacts, WEFT_GLOBAL float4* positions,
-                   WEFT_GLOBAL const float4* snapshots, WEFT_GLOBAL const int* rows,
-                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL const float4* measures,
-                   WEFT_GLOBAL float* multipliers, int vertex_count, float inverse_h2,
-                   int iteration) {
+WEFT_NARROW_KERNEL(project_contacts, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* snapshots,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float* multipliers,
+                   int vertex_count, float inverse_h2, int iteration) {
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     if (longest > 0) {
         WEFT_GLOBAL const float4* snapshot = snapshots + vertex_count * (iteration % 2);
+        const item next = column(i, vertex_count, (iteration + 1) % 2);
         const whole start = load_whole(rows, i);
         const real zero = splat(0.0f);
         const real4 x = load4(positions, i);
         real3 push = make3(zero, zero, zero);
+        real crowd = zero;
         for (int k = 0; k < longest; ++k) {
             const mask on = splat_whole(k) < count;
             const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
             const contact_entry c = load_contact(snapshot, corner0, corner1, corner2, corner3,
                                                  normals, weights, measures, entry);
             const real multiplier = iteration == 0 ? zero : gather(multipliers, entry);
-            // What neither pushes nor has pushed does not change.
-            if (!any_item(both(on, (c.gap < c.range ? splat(1.0f) : multiplier) > zero))) {
+            const mask presses = (c.gap < c.range ? splat(1.0f) : multiplier) > zero;
+            crowd = both(on, presses) ? crowd + c.own : crowd;
+            // What neither presses nor has pressed does not change.
+            if (!any_item(both(on, presses))) {
                 if (iteration == 0) scatter_where(on, multipliers, entry, zero);
                 continue;
             }
@@ -105,6 +128,9 @@ WEFT_NARROW_KERNEL(project_contacts, WEFT_GLOBAL float4* positions,
             push = add_scaled(push, c.normal, on ? c.own * change : zero);
         }
         store4(positions, i, with_w(add_scaled(xyz(x), push, x.w), x.w));
+        const real light = x.w * larger(crowd, splat(1.0f));
+        store4_where(splat_whole(0) < count, snapshots, next,
+                     with_w(xyz(load4(snapshots, next)), light));
     }
 }
 
@@ -123,7 +149,7 @@ WEFT_INLINE real3 rubbed(contact_entry c, real3 rub, real cap, real lightness, f
 
 /// Of a vector's components, without their signs. (Squares of small ones would be 0.)
 WEFT_INLINE real largest_part(real3 v) {
-    return larger(larger(larger(v.x, -v.x), larger(v.y, -v.y)), larger(v.z, -v.z));
+    return larger(larger(size_of(v.x), size_of(v.y)), size_of(v.z));
 }
 
 /// Holds back what slides, across the normals: behind project_contacts, from the same snapshot, by

@@ -16,9 +16,10 @@ ContactProjection::ContactProjection(Model& model, ContactResponse& contact)
 }
 
 Launch ContactProjection::share(int ahead) {
-    return only_where(rows_.touching, launch(kernels::share_masses, model_.vertices(),
-                                             *model_.positions, rows_.table.counts(), least_,
-                                             snapshots_, model_.vertex_count(), kIteration, ahead));
+    return only_where(rows_.touching,
+                      launch(kernels::share_masses, model_.vertices(), *model_.positions,
+                             rows_.table.rows(), rows_.table.counts(), rows_.measures, least_,
+                             snapshots_, model_.vertex_count(), kIteration, ahead));
 }
 
 void ContactProjection::add_snapshot(std::vector<Launch>& launches) {
@@ -32,6 +33,7 @@ void ContactProjection::add_snapshot_accesses(Step::Adding& task, int iteration,
     const int half = iteration % 2 * model_.vertex_count();
     task.reads(rows_.touching, first_strip, end_strip)
         .reads(rows_.table.counts(), first, last)
+        .reads(rows_.measures, rows_.table.entries(), first_strip, end_strip)
         .reads(least_, first, last)
         .updates(snapshots_, half + first, half + last);
 }
@@ -61,10 +63,12 @@ void ContactProjection::add_project_accesses(Step::Adding& task, int iteration, 
                                              int end_strip) {
     const int all = model_.vertex_count();
     const int half = iteration % 2 * all;
+    const int next = all - half;
     const int first = model_.vertices().item(first_strip);
     const int last = model_.vertices().item(end_strip);
     task.updates(*model_.positions, first, last)
         .reads(snapshots_, half, half + all)
+        .updates(snapshots_, next + first, next + last)
         .updates(multipliers_, rows_.table.entries());
     if (rubs_ != nullptr) task.updates(*rubs_, rows_.table.entries());
     rows_.add_reads(task, first_strip, end_strip, first, last);

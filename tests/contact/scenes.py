@@ -309,7 +309,7 @@ SHORT = {
 OTHER_SOLVERS = {
     "sosd": ["fast_sheets", "needle", "pressed_blocks"],
     "jpgd": ["fast_sheets", "needle", "pressed_blocks", "knife"],
-    "xpbd": ["fast_sheets", "pressed_blocks", "fold", "stack10", "knife", "slit"],
+    "xpbd": ["fast_sheets", "pressed_blocks", "fold", "stack10", "knife", "slit", "sphere5", "twist"],
     "newton": ["fast_sheets", "needle", "pressed_blocks", "knife"],
 }
 

@@ -190,9 +190,10 @@ void keep_case(KernelCase& c) {
 
 void share_case(KernelCase& c) {
     OwnContacts contacts(c);
-    auto& snapshots = c.add<float4>("snapshots", 2 * c.items);
-    c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.counts,
-                      add_least(c), snapshots, c.items, kIteration, 1);
+    auto& snapshots = add_points(c, "snapshots", 2 * c.items);
+    c.launch = launch(kernels::share_masses, c.segments, contacts.positions, contacts.rows.rows,
+                      contacts.rows.counts, contacts.measures, add_least(c), snapshots, c.items,
+                      kIteration, 1);
 }
 
 void project_case(KernelCase& c) {

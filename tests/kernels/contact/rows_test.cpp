@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "kernels/contact/terms.h"
@@ -106,8 +107,9 @@ public:
 
     /// One iteration of XPBD without any elements.
     void project(int iteration, float friction = 0.0f) {
-        const Launch share = launch(kernels::share_masses, Segments{}, positions, table_.counts(),
-                                    least_, snapshots_, kVertices, kIteration, 0);
+        const Launch share =
+            launch(kernels::share_masses, Segments{}, positions, table_.rows(), table_.counts(),
+                   measures_, least_, snapshots_, kVertices, kIteration, 0);
         run_on_host(share, share.kernel->scalar, 0, kVertices, 0, iteration);
         const Launch push =
             launch(kernels::project_contacts, Segments{}, positions, snapshots_, table_.rows(),
@@ -121,6 +123,12 @@ public:
                                   *corners_[2], *corners_[3], normals_, weights_, measures_, slips_,
                                   multipliers_, rubs_, kVertices, kIteration, friction, kSlow);
         run_on_host(rub, rub.kernel->scalar, 0, kVertices, 0, iteration);
+    }
+
+    /// By how much lighter an iteration takes a vertex for a contact of weight 1 than it is.
+    double crowd(int v, int iteration) const {
+        const std::size_t shown = at(v + iteration % 2 * kVertices);
+        return double{snapshots_[shown].w} / double{positions[at(v)].w};
     }
 
     double gap(const TestContact& c) const {
@@ -264,6 +272,37 @@ Vec3 momentum(const Buffer<float4>& positions) {
     Vec3 sum;
     for (const float4& x : positions.span()) sum = sum + (1.0 / double{x.w}) * to_vec3(x);
     return sum;
+}
+
+double weight_at(const TestContact& c, int v) {
+    double weight = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (c.corners[k] == v) weight += std::abs(double{c.weights[k]});
+    }
+    return weight;
+}
+
+/// Each gets of its vertices' masses what its weight is of all weights: of all contacts at first,
+/// then of those that pressed.
+TEST(ContactProjection, WhatDoesNotPressLeavesTheMassToWhatDoes) {
+    TouchingVertices touching(8, kHeld);
+    for (float4& x : touching.positions.span()) x = {3.0f * x.x, 3.0f * x.y, 3.0f * x.z, x.w};
+    std::vector<double> all(kVertices, 0.0);
+    std::vector<double> pressing(kVertices, 0.0);
+    for (const TestContact& c : touching.contacts) {
+        const bool presses = touching.gap(c) < double{kRange};
+        for (int v = kHeld; v < kVertices; ++v) {
+            all[at(v)] += weight_at(c, v);
+            if (presses) pressing[at(v)] += weight_at(c, v);
+        }
+    }
+    touching.project(0);
+    for (int v = kHeld; v < kVertices; ++v) {
+        EXPECT_NEAR(touching.crowd(v, 0), all[at(v)], 1e-5) << v;
+        EXPECT_NEAR(touching.crowd(v, 1), std::max(pressing[at(v)], 1.0), 1e-5) << v;
+    }
+    EXPECT_LT(std::accumulate(pressing.begin(), pressing.end(), 0.0),
+              0.8 * std::accumulate(all.begin(), all.end(), 0.0));
 }
 
 TEST(ContactProjection, WhatOneVertexGetsTheOthersGive) {

@@ -176,7 +176,7 @@ dt = 0.016666667
 substeps = 8
 [solver]
 method = "xpbd"
-iterations = 8
+iterations = 2
 [contact]
 thickness = 0.01
 friction = 0.3

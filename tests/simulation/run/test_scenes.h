@@ -367,6 +367,13 @@ stretch = { stiffness = 300.0 }
     return text;
 }();
 
+/// The same without the block.
+inline const std::string kSheets = [] {
+    std::string text = kRubbing;
+    const std::size_t block = text.find("[[solid]]");
+    return text.erase(block, text.find("[[cloth]]", block) - block);
+}();
+
 /// What friction holds of solids while obstacles push them, of one that tips over, and of a sheet.
 inline const std::string kLying = R"(
 [scene]

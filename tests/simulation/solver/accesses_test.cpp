@@ -110,6 +110,7 @@ std::string name_of_case(
                         : text == &kSolids   ? "Solids"
                         : text == &kWoven    ? "Woven"
                         : text == &kTouching ? "Touching"
+                        : text == &kSheets   ? "Sheets"
                         : text == &kNarrow   ? "Narrow"
                         : text == &kSewn     ? "Sewn"
                                              : "NarrowTouching";
@@ -126,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(InContact, Accesses,
                          testing::Combine(testing::Values(Method::kXpbd, Method::kVbd,
                                                           Method::kSosd, Method::kJpgd,
                                                           Method::kNewton),
-                                          testing::Values(&kTouching, &kNarrowTouching)),
+                                          testing::Values(&kTouching, &kSheets, &kNarrowTouching)),
                          name_of_case);
 
 }  // namespace
