@@ -212,7 +212,9 @@ private:
         show_ = new_kind("snapshot");
         projection_->add_snapshot(show_.launches);
         push_again_ = new_kind("push-again");
-        push_again_.launches = push_.launches;
+        for (const Launch& launch : push_.launches) {
+            push_again_.launches.push_back(only_where(contact_->rows().touching, launch));
+        }
     }
 
     void make_predict() {
