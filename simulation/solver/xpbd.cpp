@@ -21,7 +21,7 @@ using Multipliers = std::vector<std::unique_ptr<Buffer<float>>>;
 /// Contacts alone, behind the last iteration: a projection of all at once does a part of each, and
 /// what it leaves becomes motion. With none, a knife pushed onto a vertex of cloth left six times
 /// the energy there. Not where solids move: they are solved less far than cloth, and contacts that
-/// move them alone left blocks below heavy ones strained ten times as much.
+/// move them alone left blocks below heavy ones strained 4 to 16 times as much.
 constexpr int kMoreRounds = 2;
 
 /// What is projected by tasks of its own, and by which.
