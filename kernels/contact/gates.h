@@ -46,8 +46,10 @@ WEFT_NARROW_KERNEL(find_awake_strips, WEFT_GLOBAL const int* patch_begin,
 /// meeting   [items] written: 1 where vertices of the strip or of the next one may
 /// filling   [items] written: 1 where vertices of the strip may, or might have had some in the
 ///           substep before
+/// apart     [items] written: 1 where vertices of the strip have none, else 0
 WEFT_KERNEL(find_touching_strips, WEFT_GLOBAL const int* near, WEFT_GLOBAL int* touching,
-            WEFT_GLOBAL int* meeting, WEFT_GLOBAL int* filling, int item_count, int instance) {
+            WEFT_GLOBAL int* meeting, WEFT_GLOBAL int* filling, WEFT_GLOBAL int* apart,
+            int item_count, int instance) {
     const whole none = splat_whole(0);
     const whole one = splat_whole(1);
     const whole strip = item_numbers(i);
@@ -59,6 +61,7 @@ WEFT_KERNEL(find_touching_strips, WEFT_GLOBAL const int* near, WEFT_GLOBAL int* 
     store_whole(touching, i, now);
     store_whole(meeting, i, larger_whole(now, behind));
     store_whole(filling, i, larger_whole(now, was));
+    store_whole(apart, i, one - now);
 }
 
 WEFT_KERNELS_END

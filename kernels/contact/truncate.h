@@ -100,6 +100,18 @@ WEFT_INLINE real3 foothold_before(WEFT_GLOBAL const float4* planes, whole start,
     return way;
 }
 
+/// As much of a way as lies in a ball around its start.
+WEFT_INLINE real3 within_ball(real3 way, real radius) {
+    const real length = length3(way);
+    return scale(way, length > radius ? radius / divisor(length) : splat(1.0f));
+}
+
+/// Whether a way lacks more than a thousandth of the one that was wanted.
+WEFT_INLINE mask is_taken_back(mask on, real3 way, real3 wanted) {
+    const real3 lacks = subtract(way, wanted);
+    return both(on, dot3(lacks, lacks) > splat(1e-6f) * dot3(wanted, wanted));
+}
+
 /// The last word about positions: takes vertices back to where no contact forbids them to be.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]; written where it changes
 /// anchors    [vertices] xyz: where each was when contacts were found [m], w: its ball's radius [m]
@@ -144,10 +156,8 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
         real3 foothold = make3(zero, zero, zero);
         const int makes_way = smallest_real(nearest) < 0.0f;
         if (makes_way) foothold = foothold_before(planes, start, count);
-        const real length = length3(wanted);
-        const real shorter = length > radius ? radius / divisor(length) : one;
         const kept_way kept = way_before(planes, start, count, foothold, makes_way,
-                                         scale(wanted, shorter), soft, hard);
+                                         within_ball(wanted, radius), soft, hard);
         const real3 way = kept.way;
         // Planes may have led it out of the ball again; between here and the foothold all is well.
         const real from = length3(foothold);
@@ -156,14 +166,34 @@ WEFT_NARROW_KERNEL(truncate_contacts, WEFT_GLOBAL float4* positions,
         const real share = rest > left ? left / divisor(rest) : one;
         const real3 end = add(anchor, between3(foothold, way, share));
         store4_where(out, positions, i, with_w(end, x.w));
-        const real3 taken = subtract(subtract(end, anchor), wanted);
-        const mask is_cut = both(out, dot3(taken, taken) > splat(1e-6f) * dot3(wanted, wanted));
+        const mask is_cut = is_taken_back(out, subtract(end, anchor), wanted);
         const real rounding = splat(7e-7f) * length3(anchor) + splat(1e-4f) * from;
         const real beyond = larger(kept.lack - rounding, from - radius);
         const mask is_lost = both(out, beyond > zero);
         result = is_lost ? splat_whole(2) : (is_cut ? splat_whole(1) : result);
     }
     if (all) store_whole(cut, i, result);
+}
+
+/// The same where no vertex has planes: in strips that touch nothing.
+/// Parameters as in truncate_contacts
+WEFT_KERNEL(hold_in_balls, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* anchors,
+            WEFT_GLOBAL int* cut, int iteration, int all_from) {
+    if (iteration < all_from) return;
+    const real zero = splat(0.0f);
+    const real4 x = load4(positions, i);
+    const real4 ball = load4(anchors, i);
+    const real3 wanted = subtract(xyz(x), xyz(ball));
+    const real radius = larger(ball.w, zero);
+    const real excess = x.w > zero ? dot3(wanted, wanted) - radius * radius : zero;
+    const mask out = excess > zero;
+    whole result = splat_whole(0);
+    if (any_item(out)) {
+        const real3 end = add(xyz(ball), within_ball(within_ball(wanted, radius), radius));
+        store4_where(out, positions, i, with_w(end, x.w));
+        result = is_taken_back(out, subtract(end, xyz(ball)), wanted) ? splat_whole(1) : result;
+    }
+    store_whole(cut, i, result);
 }
 
 WEFT_KERNELS_END

@@ -132,6 +132,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       touching_("contact.touching", strips_of(model)),
       meeting_("contact.meeting", strips_of(model)),
       filling_("contact.filling", strips_of(model)),
+      apart_("contact.apart", strips_of(model)),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
       planes_table_("contact.planes", model.vertices(), first_room(model, sizeof(float4))),
       contacts_("contact.contacts", model.vertices(), first_room(model, 5 * sizeof(float4))),
@@ -171,7 +172,7 @@ void ContactResponse::make_fill() {
         "contacts",
         fill_kind_,
         {launch(kernels::find_touching_strips, surface.roots.items.segments, pairs_.near_strips(),
-                touching_, meeting_, filling_, model_.strips.count(), kInstance),
+                touching_, meeting_, filling_, apart_, model_.strips.count(), kInstance),
          only_where(filling_, launch(kernels::find_busy_patches, surface.patches.segments,
                                      static_cast<Buffer<int>&>(surface.around.begin),
                                      static_cast<Buffer<int>&>(surface.around.items),
@@ -191,8 +192,10 @@ void ContactResponse::make_fill() {
                     pairs_.surface().triangle_count(), pairs_.surface().edge_count(), range_,
                     kSoftSlack * floor_, factor, kInstance))}};
     auto& launches = fill_.launches;
-    if (model_.scene.contact->planes)
-        launches.push_back(truncation(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
+    if (model_.scene.contact->planes) {
+        launches.push_back(planes(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
+        launches.push_back(balls(*model_.positions, 0));
+    }
     showing_ = launches.size();
     for (const int ahead : {0, 1}) launches.push_back(snapshot(*model_.positions, ahead));
     launches.push_back(launch(kernels::find_strays, surface.patches.segments, pairs_.patch_low(),
@@ -264,7 +267,7 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     for (RowTable* table : {&planes_table_, &contacts_}) {
         task.updates(table->counts(), first, last).updates(table->needs(), first, last);
     }
-    for (Buffer<int>* gate : {&touching_, &meeting_, &filling_}) {
+    for (Buffer<int>* gate : {&touching_, &meeting_, &filling_, &apart_}) {
         task.updates(*gate, region.begin, region.end);
     }
     task.updates(planes_, planes_table_.entries());
@@ -332,10 +335,16 @@ void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int
     rows().add_reads(task, first_strip, end_strip, first, last);
 }
 
-Launch ContactResponse::truncation(Buffer<float4>& positions, float soft, int all_from) {
-    return launch(kernels::truncate_contacts, model_.vertices(), positions, anchors_, least_,
-                  planes_table_.rows(), planes_table_.counts(), planes_, cut_, soft,
-                  kHardSlack * floor_, kIteration, all_from);
+Launch ContactResponse::planes(Buffer<float4>& positions, float soft, int all_from) {
+    return only_where(
+        touching_, launch(kernels::truncate_contacts, model_.vertices(), positions, anchors_,
+                          least_, planes_table_.rows(), planes_table_.counts(), planes_, cut_, soft,
+                          kHardSlack * floor_, kIteration, all_from));
+}
+
+Launch ContactResponse::balls(Buffer<float4>& positions, int all_from) {
+    return only_where(apart_, launch(kernels::hold_in_balls, model_.vertices(), positions, anchors_,
+                                     cut_, kIteration, all_from));
 }
 
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
@@ -347,11 +356,15 @@ Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
 void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions,
                                      int all_from) {
     if (!model_.scene.contact->planes) return;
-    launches.push_back(truncation(positions, kSoftSlack * floor_, all_from));
+    launches.push_back(planes(positions, kSoftSlack * floor_, all_from));
+    launches.push_back(balls(positions, all_from));
 }
 
-void ContactResponse::add_truncation_accesses(Step::Adding& task, int first, int last) {
-    task.reads(anchors_, first, last)
+void ContactResponse::add_truncation_accesses(Step::Adding& task, StripRange strips) {
+    const auto [first, last] = vertices(strips.begin, strips.end);
+    task.reads(touching_, strips.begin, strips.end)
+        .reads(apart_, strips.begin, strips.end)
+        .reads(anchors_, first, last)
         .reads(least_, first, last)
         .reads(planes_table_.counts(), first, last)
         .reads(planes_, planes_table_.entries())
@@ -444,6 +457,7 @@ void ContactResponse::put(std::span<const FrozenContact> contacts,
     std::ranges::fill(least_.span(), 0.0f);
     std::ranges::fill(touching_.span(), 1);
     std::ranges::fill(meeting_.span(), 1);
+    std::ranges::fill(apart_.span(), 0);
 }
 
 ContactRecord ContactResponse::account() {

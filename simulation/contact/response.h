@@ -62,7 +62,7 @@ public:
     /// until then nothing else knows whether they stay in their balls
     void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions, int all_from = 0);
     /// What that needs of its own strips.
-    void add_truncation_accesses(Step::Adding& task, int first, int last);
+    void add_truncation_accesses(Step::Adding& task, StripRange strips);
     /// Shows the positions to all in the next iteration.
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
@@ -94,6 +94,8 @@ public:
     /// with how many substeps inertia would lead nobody so far that it is taken back.
     int substeps_wanted() const;
 
+    /// [strips] where nothing but balls holds vertices: 1; else 0.
+    Buffer<int>& apart() { return apart_; }
     /// [vertices] whom the last truncation took back: not 0.
     Buffer<int>& cut() { return cut_; }
     /// [vertices] how many contacts each has.
@@ -126,7 +128,8 @@ private:
     /// second_half: where it begins
     Launch gather_from(Phase phase, Buffer<float4>& positions, Buffer<float4>& snapshots,
                        int second_half, VertexItems& items, Buffer<float>& sums);
-    Launch truncation(Buffer<float4>& positions, float soft, int all_from);
+    Launch planes(Buffer<float4>& positions, float soft, int all_from);
+    Launch balls(Buffer<float4>& positions, int all_from);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
@@ -139,8 +142,8 @@ private:
     CommonMotion motion_;
     Buffer<float> quiet_;  ///< [vertices] how far each may get before a triangle could turn over
     Incidence incidence_;
-    Buffer<int> busy_;                          ///< [patches] kernels/contact/fill.h
-    Buffer<int> touching_, meeting_, filling_;  ///< [strips] kernels/contact/gates.h
+    Buffer<int> busy_;                                  ///< [patches] kernels/contact/fill.h
+    Buffer<int> touching_, meeting_, filling_, apart_;  ///< [strips] kernels/contact/gates.h
     int fill_kind_;
     RowTable planes_table_, contacts_;
     Buffer<float4>& planes_;

@@ -88,13 +88,15 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
                               *moved_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
 }
 
-void BodyMomentum::add_move_accesses(Step::Adding& task, int first, int last) {
+void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
     if (!free_bodies_) return;
     if (touching_)
         touching_->add_motion_accesses(task);
     else
         lone_->add_move_accesses(task);
-    if (contact_) contact_->add_truncation_accesses(task, first, last);
+    if (contact_) contact_->add_truncation_accesses(task, strips);
+    const int first = model_.vertices().item(strips.begin);
+    const int last = model_.vertices().item(strips.end);
     task.updates(*model_.positions, first, last).updates(targets_, first, last);
 }
 

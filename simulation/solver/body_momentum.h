@@ -43,8 +43,8 @@ public:
 
     /// Moves bodies, behind the velocities of a substep; obstacles and contacts have the last word.
     void add_moves(std::vector<Launch>& launches);
-    /// What that needs of vertices [first, last).
-    void add_move_accesses(Step::Adding& task, int first, int last);
+    /// What that needs of its own strips.
+    void add_move_accesses(Step::Adding& task, StripRange strips);
 
     void list_bodies(std::vector<const TaskBody*>& bodies) const;
     std::vector<std::string> kinds() const;

@@ -121,7 +121,7 @@ Step::Adding DescentSubstep::add_end(Step& step, const TaskBody& body, const Reg
         .updates(*model_.velocities, first, last)
         .updates(targets_, first, last);
     if (contact_) contact_->add_count_accesses(task, first, last);
-    momentum_.add_move_accesses(task, first, last);
+    momentum_.add_move_accesses(task, region.strips());
     return momentum_.has_bodies() ? task : task.reads(*model_.positions, first, last);
 }
 

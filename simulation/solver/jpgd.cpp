@@ -273,7 +273,7 @@ private:
         substep_.momentum().add_obstacle_accesses(task, first, last);
         if (!contact_) return;
         contact_->rows().add_reads(task, strips.begin, strips.end, first, last);
-        contact_->add_truncation_accesses(task, first, last);
+        contact_->add_truncation_accesses(task, strips);
     }
 
     /// Behind the last check, which is of iteration number `iterations_`.

@@ -68,9 +68,7 @@ void NarrowTask::add(Step& step, const std::vector<Region>& regions, int iterati
     for (const Region& region : regions) {
         auto task = add_push(step, pushes_[iterate], region, iteration, iterate);
         if (setting_.contact == nullptr) continue;
-        const int first = model_.vertices().item(region.begin);
-        const int last = model_.vertices().item(region.end);
-        setting_.contact->add_truncation_accesses(task, first, last);
+        setting_.contact->add_truncation_accesses(task, region.strips());
         if (!setting_.snapshots) continue;
         setting_.contact->add_snapshot_accesses(task, iteration, region.begin, region.end);
     }

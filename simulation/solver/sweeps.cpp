@@ -121,7 +121,7 @@ void SweepSolver::add_strips(Step& step, int iteration, StripRange strips, Regio
     ContactResponse* contact = substep_.contact();
     if (contact == nullptr) return;
     contact->add_gather_accesses(task, iteration, strips.begin, strips.end);
-    contact->add_truncation_accesses(task, first, last);
+    contact->add_truncation_accesses(task, strips);
     contact->add_snapshot_accesses(task, iteration, strips.begin, strips.end);
 }
 

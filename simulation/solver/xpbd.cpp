@@ -213,6 +213,7 @@ private:
         projection_->add_snapshot(show_.launches);
         push_again_ = new_kind("push-again");
         for (const Launch& launch : push_.launches) {
+            if (launch.gate == &contact_->apart()) continue;
             push_again_.launches.push_back(only_where(contact_->rows().touching, launch));
         }
     }
@@ -294,7 +295,7 @@ private:
         task.reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
-        if (momentum_) momentum_->add_move_accesses(task, begin, end);
+        if (momentum_) momentum_->add_move_accesses(task, region.strips());
         if (contact_) contact_->add_count_accesses(task, begin, end);
     }
 
@@ -357,7 +358,7 @@ private:
         const int end = first_vertex(region.end);
         auto task = step.add(body, iteration, region.strips(), region.id);
         projection_->add_project_accesses(task, iteration, region.begin, region.end);
-        contact_->add_truncation_accesses(task, begin, end);
+        contact_->add_truncation_accesses(task, region.strips());
         if (momentum_) return momentum_->add_obstacle_accesses(task, begin, end);
         if (model_.obstacles) task.reads(*model_.previous, begin, end);
     }

@@ -29,8 +29,9 @@ void touching_case(KernelCase& c) {
     auto& touching = add_numbers(c, "touching", c.items, 2);
     auto& meeting = c.add<int>("meeting", c.items);
     auto& filling = c.add<int>("filling", c.items);
+    auto& apart = c.add<int>("apart", c.items);
     c.launch = launch(kernels::find_touching_strips, c.segments, near, touching, meeting, filling,
-                      c.items, kInstance);
+                      apart, c.items, kInstance);
 }
 
 const bool added =

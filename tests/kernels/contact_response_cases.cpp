@@ -92,6 +92,15 @@ void truncate_case(KernelCase& c) {
                       c.flavour == Flavour::kRandom ? 0 : 1);
 }
 
+void balls_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& anchors = add_points(c, "anchors", c.items);
+    for (float4& a : anchors.span()) a.w = c.random.real(0.0f, 2.0f * kSize);
+    auto& cut = c.add<int>("cut", c.items);
+    c.launch = launch(kernels::hold_in_balls, c.segments, positions, anchors, cut, kIteration,
+                      c.flavour == Flavour::kRandom ? 0 : 1);
+}
+
 void gather_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& snapshots = add_points(c, "snapshots", 2 * c.items);
@@ -290,12 +299,12 @@ void fill_case(KernelCase& c) {
                       c.items, triangle_count, edge_count, kRange, 0.05f * kRange, 4.0f, kInstance);
 }
 
-const bool added = add_case("begin_contacts", begin_case) && add_case("find_strays", strays_case) &&
-                   add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
-                   add_case("truncate_contacts", truncate_case) &&
-                   add_case("gather_contacts", gather_case) &&
-                   add_case("take_snapshot", snapshot_case) &&
-                   add_case("find_busy_patches", busy_case) && add_case("fill_contacts", fill_case);
+const bool added =
+    add_case("begin_contacts", begin_case) && add_case("find_strays", strays_case) &&
+    add_case("find_unquiet", unquiet_case) && add_case("count_cut", count_case) &&
+    add_case("truncate_contacts", truncate_case) && add_case("hold_in_balls", balls_case) &&
+    add_case("gather_contacts", gather_case) && add_case("take_snapshot", snapshot_case) &&
+    add_case("find_busy_patches", busy_case) && add_case("fill_contacts", fill_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
     add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&

@@ -331,7 +331,7 @@ private:
         const auto [first, last] = substep_.vertices(strips.begin, strips.end);
         substep_.momentum().add_obstacle_accesses(task, first, last);
         if (contact_ == nullptr) return;
-        contact_->add_truncation_accesses(task, first, last);
+        contact_->add_truncation_accesses(task, strips);
         contact_->add_snapshot_accesses(task, number_, strips.begin, strips.end);
     }
 

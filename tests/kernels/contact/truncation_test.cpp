@@ -18,6 +18,12 @@ constexpr double kRounding = 1e-6;
 
 Vec3 vec(const float4& v) { return {v.x, v.y, v.z}; }
 
+/// Of one that moves.
+float4 end_of(const float4& anchor, Vec3 way) {
+    return {anchor.x + static_cast<float>(way.x), anchor.y + static_cast<float>(way.y),
+            anchor.z + static_cast<float>(way.z), 1.0f};
+}
+
 /// One vertex with planes of its own.
 struct Cut {
     Vec3 at;
@@ -36,8 +42,7 @@ Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes, 
     Buffer<float> least("least", 1);
     Buffer<int> cut("cut", 1);
     anchors[0] = anchor;
-    positions[0] = {anchor.x + static_cast<float>(way.x), anchor.y + static_cast<float>(way.y),
-                    anchor.z + static_cast<float>(way.z), 1.0f};
+    positions[0] = end_of(anchor, way);
     least[0] = 1e30f;
     table.counts()[0] = static_cast<int>(planes.size());
     for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -47,6 +52,18 @@ Cut truncate(const float4& anchor, Vec3 way, const std::vector<float4>& planes, 
     const Launch one =
         launch(kernels::truncate_contacts, Segments{}, positions, anchors, least, table.rows(),
                table.counts(), column, cut, kSoft, kHard, kIteration, all_from);
+    run_on_host(one, one.kernel->scalar, 0, 1);
+    return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1, cut[0] == 2};
+}
+
+Cut hold_in_ball(const float4& anchor, Vec3 way) {
+    Buffer<float4> positions("positions", 1);
+    Buffer<float4> anchors("anchors", 1);
+    Buffer<int> cut("cut", 1);
+    anchors[0] = anchor;
+    positions[0] = end_of(anchor, way);
+    const Launch one =
+        launch(kernels::hold_in_balls, Segments{}, positions, anchors, cut, kIteration, 0);
     run_on_host(one, one.kernel->scalar, 0, 1);
     return {vec(positions[0]) - vec(anchors[0]), cut[0] == 1, cut[0] == 2};
 }
@@ -83,6 +100,25 @@ TEST(Truncation, KeepsToItsBall) {
     EXPECT_TRUE(end.is_cut);
     EXPECT_NEAR(length(end.at), 0.05, kRounding);
     EXPECT_NEAR(end.at.x, 0.03, kRounding);
+}
+
+/// Strips that touch nothing have a kernel of their own.
+TEST(Truncation, WhereNothingTouchesBallsHoldAlike) {
+    Random random(3);
+    constexpr int kAll = 64;
+    int cut_ones = 0;
+    for (int i = 0; i < kAll; ++i) {
+        float4 anchor = random.point(1.0f);
+        anchor.w = random.real(0.0f, 0.3f);
+        const Vec3 way = vec(random.point(0.3f));
+        const Cut by_planes = truncate(anchor, way, {});
+        const Cut by_ball = hold_in_ball(anchor, way);
+        EXPECT_EQ(by_ball.at, by_planes.at);
+        EXPECT_EQ(by_ball.is_cut, by_planes.is_cut);
+        cut_ones += by_ball.is_cut ? 1 : 0;
+    }
+    EXPECT_GT(cut_ones, kAll / 4);
+    EXPECT_LT(cut_ones, kAll);
 }
 
 /// A wedge of up to 12 planes; some of them at the vertex.
