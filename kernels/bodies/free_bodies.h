@@ -11,17 +11,18 @@
 
 WEFT_KERNELS_BEGIN
 
-/// How a body has to move that lacks a shift [m] and what its moments say of turns. The angle is
+/// How a body has to move that lacks such a shift, and what its moments say of turns. The angle is
 /// the smaller the better its step is solved, and each round leaves of it about its square.
-WEFT_INLINE body_motion missing_motion(moments m, real3 shift) {
+WEFT_INLINE body_motion missing_motion(moments m, borne_lag borne) {
     const sym6 form = own_form_of(m);
     const sym6 hold = form_of_holding(m.hold);
-    const real3 lift = scale(lift_of(shift, m), is_held(m.hold));
+    const real3 lift = scale(lift_of(borne.lag, m), is_held(m.hold));
     body_motion done = no_motion();
     for (int round = 0; round < 3; ++round) {
         const body_motion held = multiply_sym6(hold, done);
-        const real3 left = subtract(subtract(subtract(shift, lift), done.shift), held.shift);
-        const real3 turn = subtract(lag_of_turn(m, done.turn), held.turn);
+        const real3 left = subtract(subtract(subtract(borne.lag, lift), done.shift), held.shift);
+        const real3 lack = add_scaled(lag_of_turn(m, done.turn), m.torque, -borne.share);
+        const real3 turn = subtract(lack, held.turn);
         done = add_scaled_motion(done, solve_sym6(form, make_motion(left, turn)), splat(1.0f));
         done.turn = bounded_turn(done.turn);
     }

@@ -13,7 +13,7 @@ WEFT_KERNELS_BEGIN
 
 /// So many times heavier than it is counts what is held. With 100 blocks creep on slopes that are
 /// hardly less steep than friction holds (docs/measurements.md, "Blocks that obstacles push").
-#define WEFT_HELD_WEIGHT 10.0f
+#define WEFT_HELD_WEIGHT 30.0f
 
 /// In parts of the body's mass, with r from a place that is the same for all of the body.
 typedef struct {

@@ -7,7 +7,7 @@
 // r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
-#define WEFT_MOMENT_PARTS 11
+#define WEFT_MOMENT_PARTS 12
 
 #include "kernels/bodies/holding.h"
 #include "kernels/bodies/motions.h"
@@ -21,8 +21,9 @@ typedef struct {
     real3 offset;  ///< of r [m]; the lag, x~ - x, of these here:
     real3 lag;     ///< [m]
     mat3 lags;     ///< r (x~ - x)^T [m^2]
-    real3 push;    ///< of obstacles, by which they moved x~ [m]
-    real3 way;     ///< that it has gone in the substep [m]; 0 without obstacles, as are those here
+    real3 push;    ///< of obstacles, by which they moved x~ [m]; 0 without any, as are those here
+    real3 torque;  ///< of r x push [m^2]
+    real3 way;     ///< that it has gone in the substep [m]
     real lead;     ///< of push . way: of what has been pushed [m^2]
     real pushed;   ///< above 0 where obstacles have pushed vertices of what is not to be turned [m]
     holding hold;  ///< of what is, none of the rest
@@ -35,6 +36,7 @@ WEFT_INLINE moments no_moments(void) {
                  zero,
                  zero,
                  make_mat(zero, zero, zero),
+                 zero,
                  zero,
                  zero,
                  splat(0.0f),
@@ -51,6 +53,7 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.lags = make_mat(add_scaled(a.lags.x, b.lags.x, share), add_scaled(a.lags.y, b.lags.y, share),
                       add_scaled(a.lags.z, b.lags.z, share));
     a.push = add_scaled(a.push, b.push, share);
+    a.torque = add_scaled(a.torque, b.torque, share);
     a.way = add_scaled(a.way, b.way, share);
     a.lead = a.lead + b.lead * share;
     a.pushed = a.pushed + b.pushed * share;
@@ -58,7 +61,7 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     return a;
 }
 
-/// table  [11 * rows] column-major: a column per part
+/// table  [12 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -73,6 +76,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 8), with_w(m.hold.place, m.hold.part));
     store4(table, column(i, rows, 9), with_w(make3(held.xx, held.xy, held.xz), splat(0.0f)));
     store4(table, column(i, rows, 10), with_w(make3(held.yy, held.yz, held.zz), splat(0.0f)));
+    store4(table, column(i, rows, 11), with_w(m.torque, splat(0.0f)));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -95,6 +99,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
     const real4 way = gather4(table + 7 * stride, k);
     m.way = xyz(way);
     m.lead = way.w;
+    m.torque = xyz(gather4(table + 11 * stride, k));
     const real4 place = gather4(table + 8 * stride, k);
     const real4 first_row = gather4(table + 9 * stride, k);
     const real4 rest = gather4(table + 10 * stride, k);
@@ -113,7 +118,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
 /// firm      [columns] 1: the body is turned while obstacles push it, too; 0: it is not
-/// partials  [11 * columns] written, column-major
+/// partials  [12 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
@@ -141,6 +146,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         one.pushed = target.w * (splat(1.0f) - turned);
         if (has_pushes) {
             one.push = subtract(xyz(target), xyz(gather4(starts, v)));
+            one.torque = cross3(r, one.push);
             one.way = subtract(x, xyz(gather4(previous, v)));
             one.lead = dot3(one.push, one.way);
             one.hold = holding_at(r, spread, target.w, length3(one.push), turned);
@@ -151,7 +157,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
 }
 
 /// The moments of a body, from its centre of mass.
-/// sums   [11 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// sums   [12 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
 WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
@@ -167,31 +173,46 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
     sum.hold = holding_from(sum.hold, back);
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
     sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));
+    sum.torque = add(sum.torque, cross3(back, sum.push));
     sum.offset = no_motion().shift;
     return sum;
 }
 
-/// What a body lacks, less what obstacles have pushed it too far. They push single vertices by what
-/// these alone weigh, again in each iteration, until what lies behind them has followed; after many
-/// iterations that are yet too few, that may be more than the body needs. But what bears a body
-/// does not throw it: what it lacks may lead the body as far as what has been pushed has got to,
-/// and all that would lead it further has not been pushed.
+/// What a body lacks where obstacles bear it.
+typedef struct {
+    real3 lag;   ///< [m]
+    real share;  ///< of what obstacles have pushed it that is left out
+} borne_lag;
+
+/// What bears a body does not throw it. Of what is turned while obstacles push it, pushes are known
+/// with what presses (reactions.h). That has not gone through the body yet where iterations are
+/// few, and is more than bears it then: what is too much stays, strains, and is lost to in steps to
+/// come. So pushes take from what leads such a body into the obstacle, up to all of it, and lead it
+/// nowhere.
+///
+/// Cloth is pushed by what single vertices weigh alone, again in each iteration, until what lies
+/// behind them has followed; after many iterations that are yet too few, that may be more than it
+/// needs. It may be led as far as what has been pushed has got to, and all that would lead it
+/// further has not been pushed.
 /// lag   how far its inertia leads the body from where it is, with all pushes [m]
 /// gone  how far it has been moved since its moments were taken [m]
-WEFT_INLINE real3 without_throw(real3 lag, moments m, real3 gone) {
+WEFT_INLINE borne_lag without_throw(real3 lag, moments m, real3 gone) {
     const real zero = splat(0.0f);
     const real length = length3(m.push);
     const real shrink = splat(1.0f) / divisor(length);
     const real3 up = scale(m.push, shrink);
     const real behind = m.lead * shrink - dot3(up, add(m.way, gone));
-    const real excess = dot3(lag, up) - larger(behind, zero);
-    return add_scaled(lag, up, -larger(smaller(excess, length), zero));
+    const real allowed = m.pushed > zero ? larger(behind, zero) : zero;
+    const real excess = dot3(lag, up) - allowed;
+    const real left_out = larger(smaller(excess, length), zero);
+    const borne_lag borne = {add_scaled(lag, up, -left_out), left_out * shrink};
+    return borne;
 }
 
 /// Adds up the runs of each body.
 /// sums               as in sum_of_runs
 /// first_run, counts  [bodies]
-/// moments_of         [11 * (bodies + 1)] written, column-major; of the last one nothing
+/// moments_of         [12 * (bodies + 1)] written, column-major; of the last one nothing
 WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {

@@ -283,11 +283,13 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
         store_motion(strains, body_count + 1, i, no_motion());
     }
     sum.lag.turn = add(sum.lag.turn, lag_of_turn(body, gone.turn));
-    sum.lag.shift = without_throw(sum.lag.shift, body, gone.shift);
+    const borne_lag borne_by = without_throw(sum.lag.shift, body, gone.shift);
+    sum.lag.shift = borne_by.lag;
+    sum.lag.turn = add_scaled(sum.lag.turn, body.torque, -borne_by.share);
 
     const real3 rest = scale(sum.lag.shift, splat(1.0f) - is_held(body.hold));
     const body_motion alone =
-        has_moved ? make_motion(rest, no_motion().turn) : missing_motion(body, sum.lag.shift);
+        has_moved ? make_motion(rest, no_motion().turn) : missing_motion(body, borne_by);
     const body_motion held = multiply_sym6(form_of_holding(body.hold), gone);
     sum.lag = add_scaled_motion(sum.lag, held, splat(-1.0f));
 

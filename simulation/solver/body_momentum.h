@@ -25,11 +25,16 @@ public:
                  Buffer<float4>& targets, int first_kind);
 
     bool has_bodies() const { return free_bodies_ != nullptr; }
+    /// Null: nothing is free.
+    const FreeBodies* bodies() const { return free_bodies_.get(); }
 
     /// Behind what makes x~ and `previous` at a substep's begin: keeps x~ for what obstacles push.
     void keep_starts(std::vector<Launch>& launches);
     /// What that needs of vertices [first, last).
     void add_start_accesses(Step::Adding& task, int first, int last);
+
+    /// x~ before obstacles have pushed; null: they push nothing that is free.
+    Buffer<float4>* starts() { return starts_.get(); }
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);

@@ -14,17 +14,32 @@ DescentSubstep::DescentSubstep(Model& model, int first_kind)
       contact_(ContactResponse::of(model, first_kind)),
       momentum_(model, contact_.get(), nullptr, targets_,
                 first_kind + (contact_ ? static_cast<int>(contact_->kinds().size()) : 0)),
-      next_kind_(first_kind + count_kinds()) {}
+      first_kind_(first_kind) {}
 
-int DescentSubstep::count_kinds() const {
+int DescentSubstep::next_kind() const {
     std::vector<std::string> kinds;
     list_kinds(kinds);
-    return static_cast<int>(kinds.size());
+    return first_kind_ + static_cast<int>(kinds.size());
 }
 
 void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots) {
     narrow_ = NarrowTask::of(model_, {std::move(iterates), &targets_, contact_.get(), snapshots},
-                             next_kind_);
+                             next_kind());
+}
+
+void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& derivatives,
+                                       std::vector<Phase> phases, Buffer<float4>& positions,
+                                       bool keeps_blocks) {
+    Buffer<float4>* starts = momentum_.starts();
+    if (starts == nullptr || !(contact_ || momentum_.bodies()->has_solids())) return;
+    const Reactions::Setting setting{positions,   targets_,          *starts,      items,
+                                     derivatives, std::move(phases), keeps_blocks, contact_.get()};
+    reactions_ = std::make_unique<Reactions>(model_, *momentum_.bodies(), setting, next_kind());
+}
+
+void DescentSubstep::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
+    if (reactions_) reactions_->add(step, regions, iteration);
+    momentum_.add_sums(step, regions, iteration);
 }
 
 void DescentSubstep::add_first_narrow(Step& step, const std::vector<Region>& regions) {
@@ -45,12 +60,14 @@ void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);
     if (narrow_) narrow_->list_bodies(bodies);
+    if (reactions_) reactions_->list_bodies(bodies);
 }
 
 void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (contact_) std::ranges::copy(contact_->kinds(), std::back_inserter(kinds));
     std::ranges::copy(momentum_.kinds(), std::back_inserter(kinds));
     if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds));
+    if (reactions_) std::ranges::copy(Reactions::kinds(), std::back_inserter(kinds));
 }
 
 std::vector<BufferStorage*> DescentSubstep::state() {

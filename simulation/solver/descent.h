@@ -11,6 +11,7 @@
 #include "simulation/solver/body_momentum.h"
 #include "simulation/solver/halo.h"
 #include "simulation/solver/narrow_task.h"
+#include "simulation/solver/reactions.h"
 
 namespace weft {
 
@@ -42,8 +43,15 @@ public:
     /// Whether that does anything.
     bool has_narrow() const { return narrow_ != nullptr; }
 
+    /// With what to find out what obstacles bear of free bodies, if they do (Reactions::Setting).
+    /// Behind keep_triangles_out().
+    void look_at_reactions(VertexItems& items, VertexDerivatives& derivatives,
+                           std::vector<Phase> phases, Buffer<float4>& positions,
+                           bool keeps_blocks = false);
     /// Free bodies, and obstacles' pushes.
     BodyMomentum& momentum() { return momentum_; }
+    /// What free bodies lack behind the last iteration of all regions, and the last narrow one.
+    void add_sums(Step& step, const std::vector<Region>& regions, int iteration);
 
     /// What there is besides the solver's own: tasks for momentum, and for contacts.
     void list_bodies(std::vector<const TaskBody*>& bodies) const;
@@ -62,14 +70,15 @@ public:
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
 private:
-    int count_kinds() const;
+    int next_kind() const;
 
     Model& model_;
     Buffer<float4> targets_;
     std::unique_ptr<ContactResponse> contact_;
     BodyMomentum momentum_;
-    std::unique_ptr<NarrowTask> narrow_;  ///< null: no narrow obstacles
-    int next_kind_;                       ///< behind those of contacts and momentum
+    std::unique_ptr<NarrowTask> narrow_;    ///< null: no narrow obstacles
+    std::unique_ptr<Reactions> reactions_;  ///< null: no obstacles that push free bodies
+    int first_kind_;
 };
 
 }  // namespace weft

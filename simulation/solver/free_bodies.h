@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -42,6 +43,7 @@ public:
         bool is_solid;                ///< all of the body
     };
     const Run& run(int r) const { return runs_[static_cast<std::size_t>(r)]; }
+    bool has_solids() const { return std::ranges::any_of(runs_, &Run::is_solid); }
     int run_count() const { return static_cast<int>(runs_.size()); }
     int most_runs() const { return most_runs_; }  ///< of one body
     int body_count() const { return body_count_; }

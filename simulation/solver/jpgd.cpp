@@ -133,7 +133,7 @@ public:
         add_check(step, regions, iterations_);
         substep_.add_last_narrow(step, regions, iterations_,
                                  static_cast<std::size_t>(iterations_ % 2));
-        substep_.momentum().add_sums(step, regions, iterations_);
+        substep_.add_sums(step, regions, iterations_);
         for (const Region& region : regions) add_velocities(step, region);
         substep_.add_measurements(step, regions, iterations_);
         step.seal();
@@ -182,6 +182,8 @@ private:
         }
         substep_.momentum().look_at(after(iterations_));
         substep_.keep_triangles_out({&after(0), &after(1)}, /*snapshots=*/false);
+        substep_.look_at_reactions(items_, derivatives_, {kInnerPhase}, after(iterations_),
+                                   /*keeps_blocks=*/true);
         velocities_ = {"velocities", kVelocities, {}};
         if (iterations_ % 2 != 0) {
             velocities_.launches.push_back(

@@ -17,6 +17,10 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     Sweep& sweep = *sweeps_.emplace_back(std::make_unique<Sweep>(model_, layout));
     sweep.seams = {"seams", kSeams, {}};
     sweep.strips = {"strips", kStrips, {}};
+    if (sweeps_.size() == 1) {
+        substep_.look_at_reactions(sweep.items, sweep.derivatives, {kSeamPhase, kInnerPhase},
+                                   *model_.positions);
+    }
     ContactResponse* contact = substep_.contact();
     const auto inverse_h2 = static_cast<float>(1.0 / (model_.h * model_.h));
     for (const Phase phase : {kSeamPhase, kInnerPhase}) {
@@ -81,7 +85,7 @@ Step SweepSolver::make_step(const Partition& partition) {
         substep_.add_narrow(step, regions, i);
     }
     substep_.add_last_narrow(step, regions, iterations - 1);
-    substep_.momentum().add_sums(step, regions, iterations - 1);
+    substep_.add_sums(step, regions, iterations - 1);
     for (const Region& region : regions) {
         substep_.add_end(step, velocities_, region, iterations - 1);
     }

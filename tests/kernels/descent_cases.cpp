@@ -1,3 +1,4 @@
+#include "kernels/bodies/reactions.h"
 #include "kernels/descent/hinges.h"
 #include "kernels/descent/membranes.h"
 #include "kernels/descent/springs.h"
@@ -227,6 +228,25 @@ void start_case(KernelCase& c) {
     c.launch = launch(kernels::start_targets, c.segments, positions, targets);
 }
 
+/// Some have been pushed, hardly at all or not, and some are held.
+void reactions_case(KernelCase& c) {
+    auto& positions = add_positions(c);
+    auto& starts = add_positions(c);
+    auto& targets = c.add<float4>("targets", 2 * c.items);
+    for (int v = 0; v < 2 * c.items; ++v) {
+        const float4 push = c.random.point(c.random.integer(0, 2) == 0 ? 1e-9f : 0.1f);
+        const float4 x = starts[at(v)];
+        const float grip = c.random.integer(0, 1) == 0 ? 0.0f : c.random.real(0.0f, 1e-2f);
+        targets[at(v)] = {x.x + push.x, x.y + push.y, x.z + push.z, grip};
+    }
+    auto& borne = c.add<float>("borne", 2 * c.items);
+    for (float& one : borne.span()) one = static_cast<float>(c.random.integer(0, 1));
+    auto& vertices = add_vertices(c);
+    auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    c.launch = launch(kernels::lead_by_reactions, c.segments, positions, starts, targets, borne,
+                      vertices, sums, c.items, 1e4f);
+}
+
 const bool added =
     add_case("gather_springs", springs_case) && add_case("gather_bending", bending_case) &&
     add_case("gather_spring_gradients", spring_forces_case) &&
@@ -240,7 +260,8 @@ const bool added =
     add_case("solve_membrane_stencils", membrane_stencils_case) &&
     add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&
     add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
-    add_case("copy_positions", copy_case) && add_case("start_targets", start_case);
+    add_case("copy_positions", copy_case) && add_case("start_targets", start_case) &&
+    add_case("lead_by_reactions", reactions_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -124,7 +124,7 @@ public:
         for (int i = 0; i < iterations_; ++i) add_iteration(step, i, steps_of(i));
         if (model_.scene.solver.sweeps > 0) add_sweep(step);
         substep_.add_last_narrow(step, regions_, number_);
-        substep_.momentum().add_sums(step, regions_, number_);
+        substep_.add_sums(step, regions_, number_);
         for (const Region& region : regions_) substep_.add_end(step, velocities_, region, number_);
         substep_.add_measurements(step, regions_, number_);
         step.seal();
@@ -178,6 +178,8 @@ private:
         make_control_bodies();
         substep_.momentum().look_at(*model_.positions);
         substep_.keep_triangles_out({model_.positions.get()}, /*snapshots=*/true);
+        substep_.look_at_reactions(smoother_.items, smoother_.derivatives,
+                                   {kSeamPhase, kInnerPhase}, *model_.positions);
         velocities_ = {"velocities", kVelocities, substep_.end()};
     }
 

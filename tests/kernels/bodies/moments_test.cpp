@@ -125,32 +125,59 @@ TEST(BodyMoments, TellWhatIsLeftOfABodyThatIsTurned) {
     }
 }
 
-/// What bears it has pushed it further than it needs; x~ leads it by `lag`, and it has gone `way`.
-real3 borne_lag(real3 lag, real3 way) {
+/// What bears it has pushed five of its vertices, by a mean of 0.01; x~ leads it by `lag`, and it
+/// has gone `way`.
+borne_lag borne(float is_firm, real3 lag, real3 way) {
     Heap cloud;
+    std::fill_n(cloud.firm.data(), cloud.firm.count(), is_firm);
     for (std::size_t v = 0; v < cloud.positions.count(); ++v) {
         const float4 x = cloud.positions[v];
         const bool is_pushed = v < 5;
-        const float4 target = cloud.targets[v];
+        float4& target = cloud.targets[v];
+        if (is_pushed) target.w = 1e-6f;
         cloud.unpushed[v] = {target.x, target.y - (is_pushed ? 0.04f : 0.0f), target.z, 0.0f};
         cloud.previous[v] = is_pushed ? x : float4{x.x - way.x, x.y - way.y, x.z - way.z, x.w};
     }
     return without_throw(lag, cloud.weigh(), make3(0.0f, 0.0f, 0.0f));
 }
 
-/// All of them a mean push of 0.01.
+void expect_lag(const borne_lag& found, double x, double y, double share) {
+    EXPECT_LT((in_double(found.lag) - Eigen::Vector3d(x, y, 0.0)).norm(), 1e-6);
+    EXPECT_NEAR(found.share, share, 1e-4);
+}
+
 TEST(BodyMoments, WhatBearsABodyDoesNotThrowIt) {
     const real3 still = make3(0.0f, 0.0f, 0.0f);
-    const auto expect = [](real3 found, double x, double y) {
-        EXPECT_LT((in_double(found) - Eigen::Vector3d(x, y, 0.0)).norm(), 1e-6);
-    };
-    expect(borne_lag(make3(0.002f, 0.004f, 0.0f), still), 0.002, 0.0);
-    expect(borne_lag(make3(0.002f, -0.004f, 0.0f), still), 0.002, -0.004);
-    // No more is taken than it has been pushed.
-    expect(borne_lag(make3(0.0f, 0.014f, 0.0f), still), 0.0, 0.004);
-    // What falls onto it is braked: three quarters of the vertices have gone down by 0.004.
-    expect(borne_lag(make3(0.0f, 0.002f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.002);
-    expect(borne_lag(make3(0.0f, 0.005f, 0.0f), make3(0.0f, -0.004f, 0.0f)), 0.0, 0.003);
+    for (const float is_firm : {0.0f, 1.0f}) {
+        expect_lag(borne(is_firm, make3(0.002f, 0.004f, 0.0f), still), 0.002, 0.0, 0.4);
+        expect_lag(borne(is_firm, make3(0.002f, -0.004f, 0.0f), still), 0.002, -0.004, 0.0);
+        // No more is taken than it has been pushed.
+        expect_lag(borne(is_firm, make3(0.0f, 0.014f, 0.0f), still), 0.0, 0.004, 1.0);
+    }
+}
+
+/// Three quarters of the vertices have gone down by 0.004.
+TEST(BodyMoments, WhatFallsOntoSomethingIsBraked) {
+    const real3 down = make3(0.0f, -0.004f, 0.0f);
+    expect_lag(borne(0.0f, make3(0.0f, 0.002f, 0.0f), down), 0.0, 0.002, 0.0);
+    expect_lag(borne(0.0f, make3(0.0f, 0.005f, 0.0f), down), 0.0, 0.003, 0.2);
+    expect_lag(borne(1.0f, make3(0.0f, 0.002f, 0.0f), down), 0.0, 0.0, 0.2);
+}
+
+/// What is left out of the pushes turns nothing, either.
+TEST(BodyMoments, TellHowPushesTurn) {
+    Heap cloud;
+    Random random(7);
+    for (std::size_t v = 0; v < cloud.positions.count(); ++v) {
+        const float4 push = random.point(0.01f), target = cloud.targets[v];
+        cloud.unpushed[v] = {target.x - push.x, target.y - push.y, target.z - push.z, 0.0f};
+    }
+    Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+    for (std::size_t v = 0; v < cloud.positions.count(); ++v) {
+        const Eigen::Vector3d r = in_double(cloud.positions[v]) - cloud.centre();
+        torque += r.cross(in_double(cloud.targets[v]) - in_double(cloud.unpushed[v])) / cloud.count;
+    }
+    EXPECT_LT((in_double(cloud.weigh().torque) - torque).norm(), 1e-3 * torque.norm());
 }
 
 /// Lies on its first five vertices, of which friction holds some; the last of them slides.
@@ -206,7 +233,7 @@ TEST(BodyMoments, ClothThatIsPushedIsNotTurned) {
     const moments found = heap.weigh();
     EXPECT_EQ(found.hold.part, 0.0f);
     EXPECT_GT(found.pushed, 0.0f);
-    const body_motion motion = missing_motion(found, make3(0.001f, 0.0f, 0.002f));
+    const body_motion motion = missing_motion(found, {make3(0.001f, 0.0f, 0.002f), 0.0f});
     EXPECT_EQ(length3(motion.turn), 0.0f);
     EXPECT_EQ(motion.shift.x, 0.001f);
     EXPECT_EQ(motion.shift.z, 0.002f);
@@ -217,7 +244,7 @@ TEST(BodyMoments, TheStepOfASolidGoesRoundWhatIsHeld) {
     LyingHeap heap(1.0f);
     const moments found = heap.weigh();
     const real3 shift = make3(0.001f, 0.0005f, 0.002f);
-    const body_motion motion = missing_motion(found, shift);
+    const body_motion motion = missing_motion(found, {shift, 0.0f});
     LyingHeap::Form form = WEFT_HELD_WEIGHT * heap.form(LyingHeap::kHeld);
     form += heap.form(heap.count);
     Eigen::Matrix<double, 6, 1> lag;

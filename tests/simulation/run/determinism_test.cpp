@@ -37,7 +37,7 @@ const TestScene kScenes[] = {
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "d636f27ba0f14dcba17e327f1b7d8556"},
     {"VbdTouching", kTouching, Method::kVbd, "fd904b6194fe154f4dd3ddc3e84648d7"},
-    {"VbdLying", kLying, Method::kVbd, "bbec0e87e8d5b9ead413f18ff2cce5fd"},
+    {"VbdLying", kLying, Method::kVbd, "6c743da3b9c27d377e6faa6b8e68461e"},
     {"VbdRubbing", kRubbing, Method::kVbd, "fc9e5d2dafb06ebc8081a7fb863e0f78"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "27722d57663bd6a4741e97f4ddc9633b"},
     {"XpbdSheets", kSheets, Method::kXpbd, "24d4bffd0d4f9aa37e1b687250fe47c4"},
@@ -61,10 +61,10 @@ const TestScene kScenes[] = {
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},
     {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "926ed31061a372bd85d95119a5afde9d"},
-    {"VbdNarrow", kNarrow, Method::kVbd, "1eabcf66d819caae8447dea26b77b387"},
-    {"SosdNarrow", kNarrow, Method::kSosd, "39e9f9ad53c18376e9eb7f7395572bcb"},
-    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "f32d727f67694151021a8f67c5227cb3"},
-    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "c42d2770b920dc071fcabc4b05b3739d"},
+    {"VbdNarrow", kNarrow, Method::kVbd, "51939b6a496f592b9508a8a83a31bc7f"},
+    {"SosdNarrow", kNarrow, Method::kSosd, "2eb25948c378e1d834133b03fca99324"},
+    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "cf273dced58ab1375d9c1e5e25dd701c"},
+    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "48dcfac8993ac9549852c519cd968d11"},
     {"JpgdWoven", kWoven, Method::kJpgd, "07f820a0af9a8e04d2f4773335a1bb4b"},
 };
 
