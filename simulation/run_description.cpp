@@ -65,7 +65,7 @@ RunDescription describe_run(const Model& model, const Solver& solver,
     run.scene_text = scene.text;
     if (!scene.path.empty()) run.scene_path = std::filesystem::absolute(scene.path).string();
     for (const BodyMesh& mesh : mesh_files(scene)) {
-        run.meshes.emplace_back(mesh.body, file_hash(mesh.path));
+        run.meshes.emplace_back(mesh.body, mesh_hash(mesh));
     }
     run.settings = settings_of(model, solver);
     for (const auto& device : devices) {

@@ -18,16 +18,16 @@ std::vector<BodyMesh> mesh_files(const Scene& scene) {
     const auto add = [&](const std::string& body, const Shape& shape) {
         const auto* file = std::get_if<MeshFile>(&shape);
         if (file == nullptr) return;
-        list.push_back({body, file->path});
-        if (!file->rest.empty()) list.push_back({body + ".rest", file->rest});
+        list.push_back({body, file->path, {file->path}});
+        if (!file->rest.empty()) list.push_back({body + ".rest", file->rest, {file->rest}});
     };
     for (const Cloth& cloth : scene.cloths) add("cloth." + cloth.name, cloth.shape);
     for (const Solid& solid : scene.solids) add("solid." + solid.name, solid.shape);
     for (const MeshObstacle& obstacle : scene.mesh_obstacles) {
         add("obstacle." + obstacle.name, obstacle.shape);
-        for (const std::string& path : frame_files(obstacle)) {
-            list.push_back({"obstacle." + obstacle.name + ".frames", path});
-        }
+        if (obstacle.frames.empty()) continue;
+        list.push_back(
+            {"obstacle." + obstacle.name + ".frames", obstacle.frames, frame_files(obstacle)});
     }
     return list;
 }
@@ -60,6 +60,15 @@ std::string file_hash(const std::string& path) {
     }
     hash.add(length);
     if (!stream.eof()) throw UserError(path + ": " + std::strerror(errno != 0 ? errno : EIO));
+    return hash.text();
+}
+
+std::string mesh_hash(const BodyMesh& mesh) {
+    if (mesh.files.size() == 1) return file_hash(mesh.files.front());
+    WordHash hash;
+    for (const std::string& path : mesh.files) {
+        for (const char digit : file_hash(path)) hash.add(static_cast<unsigned char>(digit));
+    }
     return hash.text();
 }
 

@@ -7,10 +7,11 @@
 
 namespace weft {
 
-/// A file that a body's shape, or its rest shape, comes from.
+/// What a body's shape, its rest shape, or its motion comes from.
 struct BodyMesh {
-    std::string body;  ///< "cloth.shirt", or "cloth.shirt.rest"
-    std::string path;
+    std::string body;   ///< "cloth.shirt", "cloth.shirt.rest", or "obstacle.body.frames"
+    std::string named;  ///< path of its file, or a sequence's pattern
+    std::vector<std::string> files;  ///< that one, or a sequence's in their order
 };
 
 /// In the scene's order.
@@ -22,5 +23,7 @@ void check_there(const MeshFile& file);
 /// Hash of a file's bytes (runtime/io/word_hash.h: its bytes, four to a word, then its length).
 /// Throws UserError if it cannot be read.
 std::string file_hash(const std::string& path);
+/// One for all files of a mesh: that of its file, or of the hashes of a sequence's files. Likewise.
+std::string mesh_hash(const BodyMesh& mesh);
 
 }  // namespace weft

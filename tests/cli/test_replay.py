@@ -207,6 +207,32 @@ def test_mesh_file(tmp_path):
     expect_error(weft("replay", trace), 2, "part.obj", "has changed since the run")
 
 
+def test_sequence_of_mesh_files(tmp_path):
+    """One hash stands for all of them, so a change of any is seen."""
+    for number in range(3):
+        (tmp_path / f"belt_{number}.obj").write_text(MESH.replace("v 1 0 1", f"v 1.{number} 0 1"))
+    scene = WIDE + """
+[contact]
+[[obstacle]]
+name = "belt"
+shape = "mesh"
+mesh = "belt_0.obj"
+translate = [0.0, -1.0, 0.0]
+motion = { frames = "belt_*.obj" }
+"""
+    trace = record(tmp_path, "--device", "cpu/1", scene=scene)
+    expect_equal(trace)
+    planned = weft("plan", trace, "--machines", "--out", tmp_path, "--device-counts", "2", "--waits",
+                   "1e-5", "--ratios", "1")
+    assert planned.returncode == 0, planned.stderr
+
+    (tmp_path / "belt_1.obj").write_text(MESH)
+    expect_error(weft("replay", trace), 2, "belt_*.obj", "obstacle.belt.frames",
+                 "has changed since the run, or is not one of these 3")
+    (tmp_path / "belt_1.obj").unlink()
+    expect_error(weft("replay", trace), 2, "is not one of these 2")
+
+
 def test_bad_traces(tmp_path):
     expect_unreadable_traces_refused(tmp_path, "replay")
     expect_error(weft("replay", old(tmp_path)), 2, "made_up.h5", "older weft")

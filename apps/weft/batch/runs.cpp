@@ -250,9 +250,9 @@ std::string SceneHashes::of(const Scene& scene) {
     std::string text = scene.text;
     for (const BodyMesh& mesh : mesh_files(scene)) {
         auto known =
-            std::ranges::find(files_, mesh.path, &std::pair<std::string, std::string>::first);
-        if (known == files_.end()) {
-            known = files_.insert(files_.end(), {mesh.path, file_hash(mesh.path)});
+            std::ranges::find(meshes_, mesh.named, &std::pair<std::string, std::string>::first);
+        if (known == meshes_.end()) {
+            known = meshes_.insert(meshes_.end(), {mesh.named, mesh_hash(mesh)});
         }
         text += '\n' + known->second;
     }

@@ -44,7 +44,7 @@ public:
     std::string of(const Scene& scene);
 
 private:
-    std::vector<std::pair<std::string, std::string>> files_;
+    std::vector<std::pair<std::string, std::string>> meshes_;
 };
 
 }  // namespace weft::batch

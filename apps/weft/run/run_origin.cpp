@@ -38,7 +38,7 @@ std::string request_text(const RunOptions& options, const Scene& scene) {
 std::string run_origin(const std::string& request, const RunOptions& options, const Scene& scene,
                        const Simulation& simulation) {
     std::string text = request;
-    for (const BodyMesh& mesh : mesh_files(scene)) text += '\n' + file_hash(mesh.path);
+    for (const BodyMesh& mesh : mesh_files(scene)) text += '\n' + mesh_hash(mesh);
     const std::string counted_from = origin_setting(simulation.model());
     if (!counted_from.empty()) text += '\n' + counted_from;
     return cache_key(text + async_origin(simulation, options));

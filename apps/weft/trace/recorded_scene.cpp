@@ -31,18 +31,21 @@ std::vector<Override> recorded_overrides(const RunDescription& run) {
 }
 
 void check_mesh(const BodyMesh& mesh, const std::string& recorded) {
-    if (!std::filesystem::exists(mesh.path)) {
+    for (const std::string& path : mesh.files) {
+        if (std::filesystem::exists(path)) continue;
         throw UserError(
             fmt::format("{}: the mesh file of {} is not there any more; --scene FILE "
                         "says where the scene file is now",
-                        mesh.path, mesh.body));
+                        path, mesh.body));
     }
-    const std::string hash = file_hash(mesh.path);
+    const std::string hash = mesh_hash(mesh);
     if (hash == recorded) return;
-    throw UserError(
-        fmt::format("{}: the mesh file of {} has changed since the run: its hash was "
-                    "{}, and is {}",
-                    mesh.path, mesh.body, recorded, hash));
+    const bool is_sequence = mesh.files.size() > 1;
+    throw UserError(fmt::format(
+        "{}: the mesh file of {} has changed since the run{}: its hash was {}, and is {}",
+        mesh.named, mesh.body,
+        is_sequence ? fmt::format(", or is not one of these {}", mesh.files.size()) : "", recorded,
+        hash));
 }
 
 }  // namespace

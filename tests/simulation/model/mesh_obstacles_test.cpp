@@ -161,7 +161,10 @@ TEST_F(FramesOfAnObstacle, AreInTheOrderOfTheirNumbers) {
     }
     EXPECT_EQ(names,
               (std::vector<std::string>{"body_0.obj", "body_1.obj", "body_2.obj", "body_10.obj"}));
-    EXPECT_EQ(mesh_files(read).size(), 5u);
+    const auto meshes = mesh_files(read);
+    ASSERT_EQ(meshes.size(), 2u);
+    EXPECT_EQ(meshes[1].body, "obstacle.body.frames");
+    EXPECT_EQ(meshes[1].files, frame_files(read.mesh_obstacles[0]));
 }
 
 TEST_F(FramesOfAnObstacle, MayHaveZerosInFront) {
