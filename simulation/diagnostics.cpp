@@ -51,8 +51,10 @@ struct BlockOfVertices {
 /// A state, and what is found out about it block by block.
 class Pass {
 public:
-    Pass(const Model& model, std::span<const float4> positions, std::span<const float4> velocities)
+    Pass(const Model& model, std::span<const float4> positions, std::span<const float4> velocities,
+         double time)
         : model_(model),
+          time_(time),
           positions_(positions),
           velocities_(velocities),
           vertices_(at(block_count(model.vertex_count()))) {
@@ -85,14 +87,14 @@ public:
         return most;
     }
     Strain strain() const { return model_.edges->joined(edges_); }
-    Energies energies(double time, double contact) const {
+    Energies energies(double contact) const {
         Energies energies;
         Vec3 moment;
         for (const BlockOfVertices& block : vertices_) {
             energies.kinetic += block.kinetic;
             moment = moment + block.moment;
         }
-        energies.gravity = -dot(model_.scene.gravity_at(time), moment);
+        energies.gravity = -dot(model_.scene.gravity_at(time_), moment);
         for (const auto& sums : families_) {
             energies.elements.push_back(std::accumulate(sums.begin(), sums.end(), 0.0));
         }
@@ -105,7 +107,8 @@ private:
         const std::size_t f = families_.size();
         families_.emplace_back(at(block_count(family.count())));
         loops_.push_back({family.count(), [this, &family, f](int block, int begin, int end) {
-                              families_[f][at(block)] = family.sum_energies(begin, end, positions_);
+                              families_[f][at(block)] =
+                                  family.sum_energies_at(time_, begin, end, positions_);
                           }});
     }
 
@@ -126,6 +129,7 @@ private:
     }
 
     const Model& model_;
+    const double time_;  ///< [s]
     std::span<const float4> positions_, velocities_;
     std::vector<BlockOfVertices> vertices_;      ///< [blocks]
     std::vector<Edges::BlockStrain> edges_;      ///< [blocks]
@@ -154,10 +158,10 @@ std::vector<double> Energies::parts() const {
 
 Energies measure_energies(const Model& model, std::span<const float4> positions,
                           std::span<const float4> velocities, double time, double contact) {
-    Pass pass(model, positions, velocities);
+    Pass pass(model, positions, velocities, time);
     pass.add_families();
     pass.run();
-    return pass.energies(time, contact);
+    return pass.energies(contact);
 }
 
 Vec3 mass_moment(const Model& model, std::span<const float4> positions) {
@@ -190,7 +194,7 @@ std::optional<BadState> find_non_finite(const Model& model) {
 StateLook look_at_state(const Model& model, double time, double contact, bool with_energies) {
     const auto positions = model.positions->span();
     const Guard& guard = model.scene.guard;
-    Pass pass(model, positions, model.velocities->span());
+    Pass pass(model, positions, model.velocities->span(), time);
     if (with_energies) pass.add_families();
     pass.add_edges();
     pass.run();
@@ -200,7 +204,7 @@ StateLook look_at_state(const Model& model, double time, double contact, bool wi
         return look;
     }
     look.strain = pass.strain();
-    if (with_energies) look.energies = pass.energies(time, contact);
+    if (with_energies) look.energies = pass.energies(contact);
     if (pass.fastest() > guard.max_speed * guard.max_speed) {
         look.beyond_guard = find_too_fast(model);
     } else {

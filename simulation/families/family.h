@@ -178,6 +178,12 @@ public:
     virtual double energy(int element, const Vec3* x) const = 0;
     /// Of elements [begin, end), added up as LaneSum does [J]; by sum_of_energies().
     virtual double sum_energies(int begin, int end, std::span<const float4> positions) const = 0;
+    /// The same at a time [s], whatever place() was told; where nothing changes by itself, there is
+    /// no difference.
+    virtual double sum_energies_at(double /*time*/, int begin, int end,
+                                   std::span<const float4> positions) const {
+        return sum_energies(begin, end, positions);
+    }
     /// dE/dx of each corner [N]
     virtual void gradient(int element, const Vec3* x, Vec3* gradient) const = 0;
     /// d2E/dx_jdx_k [N/m] as blocks[j * corners + k]; the exact one, which may be indefinite.

@@ -36,6 +36,8 @@ public:
     BufferStorage* placed_buffer() override { return clock.get(); }
     // At the end of the placed frame's first substep.
     double sum_energies(int begin, int end, std::span<const float4> positions) const override;
+    double sum_energies_at(double time, int begin, int end,
+                           std::span<const float4> positions) const override;
     double energy(int stitch, const Vec3* x) const override;
     void gradient(int stitch, const Vec3* x, Vec3* gradient) const override;
     void hessian(int stitch, const Vec3* x, Mat3* blocks) const override;

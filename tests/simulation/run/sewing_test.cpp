@@ -6,10 +6,13 @@
 #include <set>
 
 #include "runtime/error.h"
+#include "simulation/diagnostics.h"
 #include "simulation/families/convert.h"
 #include "simulation/families/stitches/stitches.h"
 #include "simulation/reference/incremental_potential.h"
 #include "simulation/scene/read_scene.h"
+#include "simulation/simulation.h"
+#include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {
@@ -164,6 +167,39 @@ TEST(Stitches, ReferenceKnowsHowFarTheyAreClosed) {
         }
         EXPECT_NEAR(stitches.total_energy(model.positions->span()), expected, 1e-5 * expected);
     }
+}
+
+/// E = k/2 (d - d (1 - t / 0.5))^2 at the end of the frame, not of its first substep.
+TEST(Stitches, EnergyOfAFrameIsThatAtItsEnd) {
+    Scene scene = parse_scene(kPanels, "test.toml");
+    for (Cloth& cloth : scene.cloths) {
+        cloth.pins.emplace_back().boxes = {Box3{{-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}}};
+    }
+    Simulation simulation = simulation_of(scene);
+    const Stitches& stitches = *simulation.model().find<Stitches>();
+    double open = 0.0;
+    for (int s = 0; s < stitches.count(); ++s) {
+        open += 0.5 * 1.0e3 * stitches.start(s) * stitches.start(s);
+    }
+    const auto names = energy_names(simulation.model());
+    const auto part = std::ranges::find(names, "stitch") - names.begin();
+    while (simulation.frame() < 40) {
+        const double closed = std::min(simulation.time() / 0.5, 1.0);
+        EXPECT_NEAR(simulation.energies().parts()[static_cast<std::size_t>(part)],
+                    open * closed * closed, 1e-5 * open)
+            << simulation.frame();
+        simulation.advance();
+    }
+}
+
+/// A weak seam is closed long before its edges are together, and what it has stored moves them.
+TEST_P(Sewing, WhatAClosedSeamHasStoredIsNotFromNowhere) {
+    Scene scene = sewn(kPanels, GetParam());
+    scene.seams[0].stiffness = 1.0;
+    scene.seams[0].time = scene.dt;
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    while (simulation.frame() < 20) simulation.advance();
+    EXPECT_TRUE(simulation.troubles().empty()) << simulation.troubles()[0].what;
 }
 
 TEST(Stitches, OfListedVerticesJoinThemOneByOne) {
