@@ -110,6 +110,20 @@ bool shows(double rounding, double shortest, const Model& model) {
     return fall > 0.0 && rounding >= kOfFall * fall && rounding >= kOfEdges * shortest;
 }
 
+/// What keeps motion where steps have to be so many times as long; the length of a frame is the
+/// most that fewer substeps give.
+std::string longer_steps(const Scene& scene, double longer) {
+    const double fewer = scene.substeps / longer;
+    if (fewer >= 1.0) {
+        return fmt::format("scene.substeps = {} (instead of {}) with more iterations keeps it",
+                           static_cast<int>(fewer), scene.substeps);
+    }
+    return fmt::format(
+        "scene.dt = {:.2g} s is too short for single precision: frames of {:.1g} s or more, of one "
+        "substep each, keep it",
+        scene.dt, scene.dt / fewer);
+}
+
 /// Velocities are differences of positions: in steps in which gravity moves by less than rounding
 /// does, motion gets lost, or comes from nowhere. A sheet of 1 m (scenes/sheet.toml, 2 iterations)
 /// came nearest to its reference with 128 substeps, in which rounding is a fifth of that way; it
@@ -125,9 +139,8 @@ void warn_of_short_steps(const Model& model, double reach, Warnings& warnings) {
     warnings.push_back(fmt::format(
         "steps of {:.2g} s are so short that the rounding of coordinates of {:.3g} m ({:.1g} m) is "
         "{:.2g} times the way that gravity makes in one: motion gets lost, or comes from nowhere; "
-        "scene.substeps = {} (instead of {}) with more iterations keeps it",
-        model.h, reach, rounding, rounding / fall,
-        std::max(1, static_cast<int>(scene.substeps / longer)), scene.substeps));
+        "{}",
+        model.h, reach, rounding, rounding / fall, longer_steps(scene, longer)));
 }
 
 /// Positions are single precision, counted from a place near the bodies: in a scene that is large,

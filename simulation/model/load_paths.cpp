@@ -148,7 +148,8 @@ int believable_substeps(std::span<const LoadPath> paths, double dt, int iteratio
         substeps = std::max(substeps, std::sqrt(strain / wanted));
     }
     constexpr double kRounding = 1e-6;  // 0.016666667 is a sixtieth of a second
-    return static_cast<int>(std::min(std::ceil(substeps - kRounding), double{kMostSubsteps}));
+    return static_cast<int>(
+        std::clamp(std::ceil(substeps - kRounding), 1.0, double{kMostSubsteps}));
 }
 
 }  // namespace weft

@@ -94,6 +94,9 @@ TEST(Substeps, LeftOutAreChosenForTheMesh) {
     const Model model(fine, warnings);
     EXPECT_EQ(model.scene.substeps, 10) << "in proportion to the resolution";
     EXPECT_EQ(with_substeps(fine).substeps, model.scene.substeps);
+
+    fine.dt = 1e-9;
+    EXPECT_EQ(with_substeps(fine).substeps, 1);
     EXPECT_TRUE(warnings.empty());
 }
 

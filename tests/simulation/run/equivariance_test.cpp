@@ -132,19 +132,31 @@ TEST_P(Equivariant, PlacesTooFarForSinglePrecisionAreTold) {
 
 /// So are steps in which rounding is more than gravity does, and only these.
 TEST_P(Equivariant, StepsTooShortForSinglePrecisionAreTold) {
-    const auto warnings_of = [](int substeps) {
+    const auto warnings_of = [](int substeps, double dt) {
         Scene scene = scene_of(kTiedBrick);
         scene.obstacles.clear();
         scene.substeps = substeps;
+        scene.dt = dt;
         Warnings warnings;
         warn_of_start(Model(scene, warnings), warnings);
         return warnings;
     };
-    EXPECT_TRUE(warnings_of(128).empty());
-    const Warnings too_short = warnings_of(2048);
+    const double dt = scene_of(kTiedBrick).dt;
+    EXPECT_TRUE(warnings_of(128, dt).empty());
+    const Warnings too_short = warnings_of(2048, dt);
     ASSERT_EQ(too_short.size(), 1U);
     EXPECT_NE(too_short[0].find("are so short that the rounding"), std::string::npos)
         << too_short[0];
+    EXPECT_NE(too_short[0].find("(instead of 2048)"), std::string::npos) << too_short[0];
+    for (const int substeps : {1, 2}) {
+        const Warnings short_frame = warnings_of(substeps, 1e-6);
+        ASSERT_EQ(short_frame.size(), 1U);
+        EXPECT_NE(short_frame[0].find("scene.dt = 1e-06 s is too short for single precision: "
+                                      "frames of 6e-05 s or more"),
+                  std::string::npos)
+            << short_frame[0];
+    }
+    EXPECT_TRUE(warnings_of(1, 6e-5).empty());
 }
 
 /// The unit of mass goes along, so that energies stay: cloth that rounding alone bends has energies
