@@ -230,6 +230,16 @@ std::optional<Contact> read_contact(const Node& root) {
     return contact;
 }
 
+/// One that nothing follows is refused: a sweep over it would do the same run again and again.
+void read_size(const Node& table, Scene& scene) {
+    if (scale_resolutions(scene, integer_value(table, "size"))) return;
+    const Node& size = *table.find("size");
+    throw UserError(fmt::format(
+        "{}: scene.size = {}: no cloth or solid of the scene is a grid or a cylinder, whose "
+        "resolutions it scales; a mesh file has the vertices that it has: leave it out",
+        size.mark.text(), size.describe()));
+}
+
 Scene read_document(const Node& root, const std::string& path) {
     Scene scene;
     scene.path = path;
@@ -253,7 +263,7 @@ Scene read_document(const Node& root, const std::string& path) {
     if (scene.cloths.empty() && scene.solids.empty()) {
         throw UserError(path + ": a scene needs at least one [[cloth]] or [[solid]]");
     }
-    if (scene_table.find("size")) scale_resolutions(scene, integer_value(scene_table, "size"));
+    if (scene_table.find("size")) read_size(scene_table, scene);
     check_vertex_count(scene);
     return scene;
 }

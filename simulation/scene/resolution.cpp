@@ -65,8 +65,8 @@ double vertices_of(const Scene& scene, double factor) {
 
 }  // namespace
 
-void scale_resolutions(Scene& scene, int vertices) {
-    if (vertices_of(scene, 1.0) == 0.0) return;
+bool scale_resolutions(Scene& scene, int vertices) {
+    if (vertices_of(scene, 1.0) == 0.0) return false;
     // Cloths grow with the factor's square and solids with its cube: so by halving intervals.
     double low = 0.0;
     double high = 1.0;
@@ -80,6 +80,7 @@ void scale_resolutions(Scene& scene, int vertices) {
     const double factor = low_is_nearer ? low : high;
     for (Cloth& cloth : scene.cloths) scale(cloth.shape, factor);
     for (Solid& solid : scene.solids) scale(solid.shape, factor);
+    return true;
 }
 
 std::array<int, 2> least_resolution(const BlockShape& block) {

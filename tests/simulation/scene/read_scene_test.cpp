@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/error.h"
 #include "scene_text.h"
 
 namespace weft {
@@ -205,6 +206,27 @@ TEST(ReadScene, SizeScalesAllGeneratedBodies) {
         100000, 1500);
     EXPECT_NEAR(static_cast<double>(grid[1]) / grid[0], 9.0 / 5.0, 0.02);
     EXPECT_NEAR(static_cast<double>(brick[0]) / grid[0], 4.0 / 5.0, 0.02);
+}
+
+TEST(ReadScene, SizeThatNothingFollowsIsRefused) {
+    const std::string mesh = test::replaced(
+        test::kSmallScene, "grid = { size = [1.0, 1.0], resolution = [3, 3] }", "mesh = 'a.obj'");
+    const auto with_size = [](const std::string& text) {
+        return parse_scene(text, "s.toml", {{"scene.size=1000", "--set"}});
+    };
+    std::string message;
+    try {
+        with_size(mesh);
+    } catch (const UserError& error) {
+        message = error.what();
+    }
+    EXPECT_EQ(message.find("--set: scene.size = 1000: no cloth or solid of the scene is a grid"),
+              0U)
+        << message;
+
+    const std::string grid = test::kSmallScene.substr(test::kSmallScene.find("[[cloth]]"));
+    const Scene both = with_size(mesh + grid);
+    EXPECT_NEAR(std::get<GridShape>(both.cloths[1].shape).resolution[0], 32, 1);
 }
 
 TEST(ReadScene, SeveralRotationsAndBoxesAreLists) {
