@@ -79,13 +79,38 @@ def test_goes_on_where_it_ended(folder, number):
 def test_replacing_the_run_of_another_scene_is_told(folder, number, name):
     interrupt(folder, number, 3)
     result = weft("run", "scene.toml", "--device", "cpu/1", "--frames", "2", "--set",
-                  f"scene.name={name}", "--out", "out/sheet", cwd=folder)
+                  f"scene.name={name}", "--out", "out/sheet", "--force", cwd=folder)
     assert result.returncode == 0, result.stderr
     text = "out/sheet: this replaces a run of another scene, 'sheet', that did not finish"
     warnings = summary_of(folder)["warnings"]
     assert [text in warning for warning in warnings] == ([True] if name == "other" else [])
     assert (f"weft: warning: {text}" in result.stderr) == (name == "other")
     assert "replacing a run that did not finish" in result.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL], ids=lambda n: n.name)
+def test_what_can_go_on_is_not_replaced(folder, number):
+    interrupt(folder, number, 3)
+    before = {path: path.read_bytes() for path in (folder / "out/sheet").iterdir()}
+    expect_error(run(folder), 2, "out/sheet", "a run that did not finish is there", "--resume",
+                 "--force")
+    assert {path: path.read_bytes() for path in (folder / "out/sheet").iterdir()} == before
+    assert run(folder, "--force", "--frames", "2").returncode == 0
+
+
+def test_what_still_runs_is_not_called_unfinished(folder):
+    process = start_weft("run", "scene.toml", "--device", "cpu/1", "--checkpoint", "0", "--frames",
+                         "4000", cwd=folder)
+    wait_for_checkpoints(folder / "out/sheet/checkpoint", 2, process)
+    expect_error(run(folder), 2, "out/sheet", "another run is writing there")
+    process.kill()
+    process.communicate()
+
+
+def test_what_has_no_checkpoint_is_replaced(folder):
+    interrupt(folder, signal.SIGKILL, 3)
+    (folder / "out/sheet/checkpoint").unlink()
+    assert run(folder, "--frames", "2").returncode == 0
 
 
 # Two sheets, of which the upper one starts within the thickness and slides.

@@ -97,7 +97,7 @@ void add_output_options(CLI::App& command, RunOptions& options) {
         ->group(group);
     command.add_flag("--no-geometry", options.no_geometry, "write no geometry")->group(group);
     command.add_flag("--no-trace", options.no_trace, "write no trace")->group(group);
-    auto* force = command.add_flag("--force", options.force, "overwrite a finished run");
+    auto* force = command.add_flag("--force", options.force, "overwrite a run that is there");
     auto* resume =
         command.add_flag("--resume", options.resume,
                          "continue a run that was stopped or killed, where there is one");

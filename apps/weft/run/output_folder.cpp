@@ -47,6 +47,24 @@ fs::path nearest_existing(fs::path path) {
     return path;
 }
 
+/// File systems without locks let everyone in.
+bool try_lock(int descriptor) {
+    return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+[[noreturn]] void refuse_as_busy(const fs::path& path) {
+    refuse(path, "another run is writing there; choose another folder");
+}
+
+/// Without keeping it.
+void check_that_nobody_writes(const fs::path& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    const bool is_free = try_lock(descriptor);
+    ::close(descriptor);
+    if (!is_free) refuse_as_busy(path);
+}
+
 void check_length(const fs::path& path) {
     std::error_code error;
     static_cast<void>(fs::status(path / "frames.vtkhdf", error));
@@ -64,15 +82,28 @@ void check_writable(const fs::path& path) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path path, bool force) : path_(std::move(path)) {
+OutputFolder::OutputFolder(fs::path path, EarlierOutput earlier) : path_(std::move(path)) {
     check_length(path_);
-    if (is_finished(summary()) && !force) {
-        refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
-    }
+    refuse_to_replace(earlier);
     check_writable(path_);
     replaces_unfinished_ =
         !is_finished(summary()) &&
         (fs::exists(trace()) || fs::exists(geometry()) || fs::exists(checkpoint()));
+}
+
+/// What failed before its first checkpoint is replaced: whoever works on a scene does so all the
+/// time.
+void OutputFolder::refuse_to_replace(EarlierOutput earlier) const {
+    if (earlier == EarlierOutput::kReplace) return;
+    if (is_finished(summary())) {
+        refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
+    }
+    if (earlier == EarlierOutput::kKeep && fs::exists(checkpoint())) {
+        check_that_nobody_writes(path_);
+        refuse(path_,
+               "a run that did not finish is there; --resume goes on with it, --force overwrites "
+               "it, another --out keeps it");
+    }
 }
 
 std::string OutputFolder::unfinished_scene() const {
@@ -154,9 +185,7 @@ fs::path OutputFolder::before(const fs::path& file) { return file.string() + ".b
 void OutputFolder::lock() {
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor_ < 0) refuse(path_, std::string("cannot be opened: ") + std::strerror(errno));
-    // File systems without locks let everyone in.
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-    refuse(path_, "another run is writing there; choose another folder");
+    if (!try_lock(descriptor_)) refuse_as_busy(path_);
 }
 
 }  // namespace weft

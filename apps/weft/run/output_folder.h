@@ -6,12 +6,16 @@
 
 namespace weft {
 
+/// What the request says of a run that is in the folder already.
+enum class EarlierOutput { kKeep, kResume, kReplace };
+
 /// The folder that a run writes into. It belongs to one run at a time.
 class OutputFolder {
 public:
     /// Looks, and touches nothing yet, so that a wrong request leaves no trace. Throws UserError if
-    /// a finished run is there (unless `force`), or if the folder cannot be made or written.
-    OutputFolder(std::filesystem::path path, bool force);
+    /// a run is there that is not to be replaced (a finished one, or, if it is to be kept, one that
+    /// has left a checkpoint to go on from), or if the folder cannot be made or written.
+    OutputFolder(std::filesystem::path path, EarlierOutput earlier);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
@@ -37,6 +41,7 @@ public:
     std::filesystem::path checkpoint() const { return path_ / "checkpoint"; }
 
 private:
+    void refuse_to_replace(EarlierOutput earlier) const;
     void open();
     void lock();
     void remove(const std::filesystem::path& old) const;

@@ -26,6 +26,11 @@ namespace {
 constexpr const char* kFirstTimeNote =
     " (the first time, OpenCL builds its kernels: seconds, with contact up to a minute)";
 
+EarlierOutput earlier_output(const RunOptions& options) {
+    if (options.force) return EarlierOutput::kReplace;
+    return options.resume ? EarlierOutput::kResume : EarlierOutput::kKeep;
+}
+
 }  // namespace
 
 SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
@@ -33,7 +38,7 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
       keeps_checkpoint_(keeps_checkpoint),
       scene_(read_scene(options.scene, options.overrides())),
       origin_(request_text(options, scene_)),
-      folder_(options.folder_for(scene_.name), options.force) {
+      folder_(options.folder_for(scene_.name), earlier_output(options)) {
     if (!options.no_geometry) check_geometry_states(scene_, options.scene);
     settle_solver();
     set_up();
