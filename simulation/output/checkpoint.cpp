@@ -1,5 +1,9 @@
 #include "simulation/output/checkpoint.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -14,8 +18,8 @@ namespace weft {
 
 namespace {
 
-// Text lines: format, origin, frame, substeps and iterations, the account's bits, sizes of the
-// report and the buffers; then their bytes, then kEnd.
+// Text lines: format, origin as JSON, frame, substeps and iterations, the account's bits, sizes of
+// the report and the buffers; then their bytes, then kEnd.
 constexpr const char* kFormat = "weft-checkpoint 5";
 constexpr const char* kEnd = "end";
 
@@ -29,11 +33,43 @@ void read_bytes(std::istream& in, Bytes& bytes) {
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
+std::string line_of(const TextPairs& origin) {
+    return nlohmann::json(origin).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<std::string> texts_of(const TextPairs& origin, const std::string& name) {
+    std::vector<std::string> texts;
+    for (const auto& [own_name, text] : origin) {
+        if (own_name == name) texts.push_back(text);
+    }
+    return texts;
+}
+
+/// The names of what two origins that are not the same differ in.
+std::string differences(const TextPairs& then, const TextPairs& now) {
+    std::vector<std::string> names;
+    for (const TextPairs* origin : {&now, &then}) {
+        for (const auto& [name, text] : *origin) {
+            if (texts_of(then, name) == texts_of(now, name)) continue;
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        }
+    }
+    return names.empty() ? "the order of what is set" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string differences(const std::string& then, const TextPairs& now) {
+    try {
+        return differences(nlohmann::json::parse(then).get<TextPairs>(), now);
+    } catch (const nlohmann::json::exception&) {
+        return "version of weft";  // an earlier one wrote no names
+    }
+}
+
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
+void write_checkpoint(const std::filesystem::path& path, const TextPairs& origin,
                       const Checkpoint& checkpoint) {
-    std::string head = std::string(kFormat) + '\n' + origin + '\n';
+    std::string head = std::string(kFormat) + '\n' + line_of(origin) + '\n';
     for (const int number : {checkpoint.frame, checkpoint.substeps, checkpoint.iterations,
                              checkpoint.failed_iterations}) {
         head += std::to_string(number) + ' ';
@@ -57,7 +93,7 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& orig
 namespace {
 
 /// origin: null: any
-std::optional<Checkpoint> read(const std::filesystem::path& path, const std::string* origin,
+std::optional<Checkpoint> read(const std::filesystem::path& path, const TextPairs* origin,
                                const std::string& advice) {
     std::ifstream in(path, std::ios::binary);
     if (!in) return std::nullopt;
@@ -68,10 +104,11 @@ std::optional<Checkpoint> read(const std::filesystem::path& path, const std::str
     std::getline(in, format);
     std::getline(in, made_from);
     if (format != kFormat) throw damaged();
-    if (origin != nullptr && made_from != *origin) {
-        throw UserError(path.string() +
-                        ": the run there was made from another scene, mesh, setting or version of "
-                        "weft; --force starts it anew");
+    if (origin != nullptr && made_from != line_of(*origin)) {
+        throw UserError(
+            fmt::format("{}: the run there differs from this one in: {}; --force starts it anew, "
+                        "another --out keeps it",
+                        path.string(), differences(made_from, *origin)));
     }
     const std::uintmax_t file_size = std::filesystem::file_size(path);
     std::uintmax_t sum = 0;
@@ -107,7 +144,7 @@ std::optional<Checkpoint> read(const std::filesystem::path& path, const std::str
 }  // namespace
 
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
-                                          const std::string& origin) {
+                                          const TextPairs& origin) {
     return read(path, &origin, "; --force starts the run anew");
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/trace/records.h"
+
 namespace weft {
 
 /// The state of a run between two frames.
@@ -22,13 +24,13 @@ struct Checkpoint {
 };
 
 /// Writes it beside the file first, then takes the file's name: whole or not at all, and a killed
-/// run leaves the one before. origin: what the run was made from, in one line. Throws RunError.
-void write_checkpoint(const std::filesystem::path& path, const std::string& origin,
+/// run leaves the one before. origin: what the run was made from, by name. Throws RunError.
+void write_checkpoint(const std::filesystem::path& path, const TextPairs& origin,
                       const Checkpoint& checkpoint);
 
 /// None if the file is missing. Throws UserError if it is no checkpoint, is damaged, or was made
-/// from something else.
+/// from something else, with the names of what differs.
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path,
-                                          const std::string& origin);
+                                          const TextPairs& origin);
 
 }  // namespace weft

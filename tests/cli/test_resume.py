@@ -270,10 +270,38 @@ def test_outputs_that_a_run_goes_on_without_are_left(folder):
 
 def test_another_scene_cannot_go_on(folder):
     interrupt(folder, signal.SIGINT, 6)
-    expect_error(run(folder, "--resume", "--set", "scene.gravity=[0, -1, 0]"), 2, "checkpoint",
-                 "another scene", "--force")
+    refused = "checkpoint: the run there differs from this one in: "
+    expect_error(run(folder, "--resume", "--set", "scene.gravity=[0, -1, 0]", "--iterations", "3",
+                     "--frames", "90"), 2, refused + "scene.gravity, solver.iterations; --force")
+    expect_error(run(folder, "--resume", "--math", "fast"), 2, refused + "--math; --force")
     (folder / "scene.toml").write_text(SCENE.replace("1.0e4", "2.0e4"))
-    expect_error(run(folder, "--resume"), 2, "checkpoint", "another scene", "--force")
+    expect_error(run(folder, "--resume"), 2, refused + "text of the scene file; --force")
+
+
+def test_checkpoint_of_an_earlier_version_cannot_go_on(folder):
+    """Which had a hash of everything where names and values are now."""
+    interrupt(folder, signal.SIGINT, 3)
+    checkpoint = folder / "out/sheet/checkpoint"
+    lines = checkpoint.read_bytes().split(b"\n", 2)
+    checkpoint.write_bytes(b"\n".join([lines[0], b"0123456789abcdef", lines[2]]))
+    expect_error(run(folder, "--resume"), 2, "in: version of weft; --force")
+
+
+def test_other_order_of_settings_cannot_go_on(folder):
+    settings = [["--set", "cloth.density=0.3"], ["--set", "cloth[0].density=0.4"]]
+    interrupt(folder, signal.SIGINT, 3, *settings[0], *settings[1])
+    expect_error(run(folder, "--resume", *settings[1], *settings[0]), 2, "the order of what is set")
+    expect_error(run(folder, "--resume", *settings[0]), 2, "in: cloth[0].density; --force")
+    assert run(folder, "--resume", *settings[0], *settings[1]).returncode == 0
+
+
+def test_other_mesh_cannot_go_on(folder):
+    (folder / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n")
+    (folder / "scene.toml").write_text(
+        SCENE.replace('grid = { size = [1.0, 1.0], resolution = [12, 12] }', 'mesh = "part.obj"'))
+    interrupt(folder, signal.SIGINT, 3)
+    (folder / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 3 2\n")
+    expect_error(run(folder, "--resume"), 2, "in: mesh of cloth.sheet; --force")
 
 
 def test_finished_run_does_not_go_on(folder):
@@ -298,7 +326,7 @@ def test_asynchronous_run_goes_on_by_the_same_map_only(folder):
     process.communicate(timeout=30)
     for other in [["--plan", "async", "--async", "window=3"], ["--plan", "exact"]]:
         result = weft("run", "scene.toml", *devices[:2], *other, "--resume", "--quiet", cwd=folder)
-        expect_error(result, 2, "out/sheet", "made from another scene, mesh, setting")
+        expect_error(result, 2, "out/sheet", "differs from this one in: --async")
     assert weft("run", "scene.toml", *devices, "--resume", "--quiet", cwd=folder).returncode == 0
     assert weft("run", "scene.toml", *devices, "--out", "out/whole", "--quiet", cwd=folder).returncode == 0
     assert summary_of(folder)["state_hash"] == summary_of(folder, "whole")["state_hash"]

@@ -12,36 +12,44 @@ namespace weft {
 namespace {
 
 /// Asynchronous results depend on the map, which depends on the cuts.
-std::string async_origin(const Simulation& simulation, const RunOptions& options) {
+void add_async(const Simulation& simulation, const RunOptions& options, TextPairs& parts) {
     const auto* async = dynamic_cast<const AsyncIterates*>(&simulation.solver());
-    if (async == nullptr) return "";
-    std::string text = '\n' + to_text(async->settings());
-    text += fmt::format("\nstrips {}\nunits", fmt::join(options.strips, ","));
+    if (async == nullptr) return;
+    std::string units;
     for (const auto& device : simulation.devices()) {
-        text += fmt::format(" {}", device->info().units);
+        units += fmt::format(" {}", device->info().units);
     }
-    return text;
+    parts.emplace_back("--async", to_text(async->settings()));
+    if (!options.strips.empty()) {
+        parts.emplace_back("--strips", fmt::format("{}", fmt::join(options.strips, ",")));
+    }
+    parts.emplace_back("units of devices", units);
 }
 
 }  // namespace
 
-std::string request_text(const RunOptions& options, const Scene& scene) {
-    std::string text = std::string(WEFT_VERSION) + '\n' + options.math + '\n' + scene.text;
-    for (const std::string& value : scene.overrides) {
-        if (!value.starts_with("scene.frames=")) text += '\n' + value;
+TextPairs request_parts(const RunOptions& options, const Scene& scene) {
+    TextPairs parts{{"version of weft", WEFT_VERSION},
+                    {"--math", options.math},
+                    {"text of the scene file", cache_key(scene.text)}};
+    for (const std::string& assignment : scene.overrides) {
+        const std::size_t equals = assignment.find('=');
+        const std::string key = assignment.substr(0, equals);
+        if (key != "scene.frames") parts.emplace_back(key, assignment.substr(equals + 1));
     }
-    return text;
+    return parts;
 }
 
 /// With the meshes, once it is known that they can be read, and what a checkpoint's positions count
 /// from.
-std::string run_origin(const std::string& request, const RunOptions& options, const Scene& scene,
-                       const Simulation& simulation) {
-    std::string text = request;
-    for (const BodyMesh& mesh : mesh_files(scene)) text += '\n' + mesh_hash(mesh);
-    const std::string counted_from = origin_setting(simulation.model());
-    if (!counted_from.empty()) text += '\n' + counted_from;
-    return cache_key(text + async_origin(simulation, options));
+TextPairs run_origin(TextPairs request, const RunOptions& options, const Scene& scene,
+                     const Simulation& simulation) {
+    for (const BodyMesh& mesh : mesh_files(scene)) {
+        request.emplace_back("mesh of " + mesh.body, mesh_hash(mesh));
+    }
+    request.emplace_back("place that positions count from", origin_setting(simulation.model()));
+    add_async(simulation, options, request);
+    return request;
 }
 
 }  // namespace weft

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <string>
-
 #include "apps/weft/run/run_options.h"
+#include "runtime/trace/records.h"
 
 namespace weft {
 
-/// What the results depend on, of what the user wrote: the scene as it was read, before a solver
-/// was chosen for it. The number of frames may differ.
-std::string request_text(const RunOptions& options, const Scene& scene);
+/// What the results depend on, of what the user wrote, with names for messages: the scene as it was
+/// read, before a solver was chosen for it. The number of frames may differ.
+TextPairs request_parts(const RunOptions& options, const Scene& scene);
 
-/// All that the results depend on, in one line: a run goes on only from a checkpoint of the same.
-/// request: as above. Throws UserError where a mesh cannot be read.
-std::string run_origin(const std::string& request, const RunOptions& options, const Scene& scene,
-                       const Simulation& simulation);
+/// All that the results depend on: a run goes on only from a checkpoint of the same. request: as
+/// above. Throws UserError where a mesh cannot be read.
+TextPairs run_origin(TextPairs request, const RunOptions& options, const Scene& scene,
+                     const Simulation& simulation);
 
 }  // namespace weft

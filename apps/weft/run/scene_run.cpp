@@ -37,12 +37,12 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     : options_(options),
       keeps_checkpoint_(keeps_checkpoint),
       scene_(read_scene(options.scene, options.overrides())),
-      origin_(request_text(options, scene_)),
+      origin_(request_parts(options, scene_)),
       folder_(options.folder_for(scene_.name), earlier_output(options)) {
     if (!options.no_geometry) check_geometry_states(scene_, options.scene);
     settle_solver();
     set_up();
-    origin_ = run_origin(origin_, options_, scene_, *simulation_);
+    origin_ = run_origin(std::move(origin_), options_, scene_, *simulation_);
     RunDescription description = describe();
     if (options_.resume) find_earlier(description);
     if (!earlier_) warn_of_other_scene();

@@ -52,7 +52,7 @@ private:
     RunOptions options_;
     bool keeps_checkpoint_;
     Scene scene_;
-    std::string origin_;         ///< in one line, what the results depend on
+    TextPairs origin_;           ///< what the results depend on
     std::string solver_choice_;  ///< why it is that; empty: the scene names its solver
     OutputFolder folder_;
     Warnings warnings_;
