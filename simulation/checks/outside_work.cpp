@@ -27,9 +27,13 @@ enum class Led : std::uint8_t { kNot, kByPin, kByObstacle };
 class Leads {
 public:
     /// with_pins: by those that move, too
-    Leads(const Model& model, std::span<const float4> before, std::span<const float4> now,
-          double start, double end, bool with_pins)
-        : model_(model), before_(before), now_(now) {
+    Leads(const Model& model, const SimulationState& before, double start, double end,
+          bool with_pins)
+        : model_(model),
+          before_(before.positions),
+          now_(model.positions->span()),
+          velocities_(before.velocities),
+          time_(end - start) {
         if (model.moving_pins && with_pins) lead_by_pins();
         for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
             const Frame from = model.convex_obstacles[o].frame_at(start);
@@ -91,11 +95,13 @@ private:
     /// What does not rub pushes along its normal only.
     static Vec3 along(Vec3 normal, Vec3 way) { return dot(normal, way) * normal; }
 
-    /// What is pushed is lifted.
+    /// What is pushed is lifted, and what is rubbed or hit takes up speed.
     double of_vertices(Vec3 gravity) const {
         double sum = 0.0;
         for (std::size_t v = 0; v < led_.size(); ++v) {
-            if (led_[v] == Led::kByObstacle) sum -= model_.masses[v] * dot(gravity, by_[v]);
+            if (led_[v] != Led::kByObstacle) continue;
+            const Vec3 gained = to_vec3((*model_.velocities)[v]) - to_vec3(velocities_[v]);
+            sum += model_.masses[v] * dot((1.0 / time_) * gained - gravity, by_[v]);
         }
         return sum;
     }
@@ -128,8 +134,10 @@ private:
 
     const Model& model_;
     std::span<const float4> before_, now_;
-    std::vector<Led> led_;  ///< [vertices]; empty: none
-    std::vector<Vec3> by_;  ///< [vertices] in the frame [m]
+    std::span<const float4> velocities_;  ///< before
+    double time_;                         ///< of the frame [s]
+    std::vector<Led> led_;                ///< [vertices]; empty: none
+    std::vector<Vec3> by_;                ///< [vertices] in the frame [m]
 };
 
 OutsideWork work_of_gravity(const Model& model, std::span<const float4> before,
@@ -194,7 +202,7 @@ OutsideWork outside_work(const Model& model, const SimulationState& before, doub
         sum.work += exact->work;
         sum.doubt += exact->doubt;
     }
-    const Leads leads(model, before.positions, now, start, end, !exact);
+    const Leads leads(model, before, start, end, !exact);
     const double led = leads.is_any() ? leads.work(gravity) : 0.0;
     sum.work += led;
     // Forces at a frame's ends say little of those within it, where stiff elements swing in every

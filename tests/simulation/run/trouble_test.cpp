@@ -416,6 +416,31 @@ motion = { velocity = [0.0, 0.5, 0.0] }
     EXPECT_NEAR(frames.back().work - frames[10].work, lifted, 0.05 * lifted);
 }
 
+/// A belt takes cloth along: half of its work is motion in the end, and half is rubbed away.
+TEST_P(EveryAccount, BooksTheWorkOfABelt) {
+    const auto frames = run(scene_of(R"(
+[scene]
+frames = 20
+dt = 0.016666667
+substeps = 10
+[[cloth]]
+grid = { size = [0.2, 0.2], resolution = [5, 5] }
+translate = [0.0, 0.0021, 0.0]
+density = 0.3
+stretch = { stiffness = 1.0e3 }
+[[obstacle]]
+shape = "plane"
+point = [0.0, 0.0, 0.0]
+thickness = 0.002
+friction = 0.5
+motion = { velocity = [0.5, 0.0, 0.0] }
+)"));
+    const double work = 0.3 * 0.2 * 0.2 * 0.5 * 0.5;  // m v^2
+    EXPECT_NEAR(frames.back().kinetic_energy, 0.5 * work, 0.02 * work);
+    EXPECT_NEAR(frames.back().work, work, 0.05 * work);
+    EXPECT_NEAR(frames.back().dissipated, 0.5 * work, 0.05 * work);
+}
+
 /// What slides along under cloth without rubbing it does nothing, however the cloth is pulled.
 TEST_P(EveryAccount, BooksNoWorkOfWhatSlidesWithoutFriction) {
     const auto frames = run(scene_of(R"(
