@@ -9,7 +9,7 @@ namespace weft {
 class BodyMoments {
 public:
     /// bodies must outlive this. first_run, counts: [bodies] of each one's runs
-    BodyMoments(FreeBodies& bodies, PushedSolids solids, Buffer<int>& first_run,
+    BodyMoments(FreeBodies& bodies, PushedBodies pushed, Buffer<int>& first_run,
                 Buffer<float>& counts);
 
     /// First they are added up by runs,

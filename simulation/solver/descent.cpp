@@ -31,7 +31,7 @@ void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& de
                                        std::vector<Phase> phases, Buffer<float4>& positions,
                                        bool keeps_blocks) {
     Buffer<float4>* starts = momentum_.starts();
-    if (starts == nullptr || !(contact_ || momentum_.bodies()->has_solids())) return;
+    if (starts == nullptr || !momentum_.bodies()->has_solids()) return;
     const Reactions::Setting setting{positions,   targets_,          *starts,      items,
                                      derivatives, std::move(phases), keeps_blocks, contact_.get()};
     reactions_ = std::make_unique<Reactions>(model_, *momentum_.bodies(), setting, next_kind());

@@ -9,10 +9,11 @@
 
 namespace weft {
 
-/// What is done with a solid while obstacles push it. (Cloth is shifted then: what hangs from what
+/// What is done with a body while obstacles push it. (Cloth is shifted then: what hangs from what
 /// it drapes over would turn it.)
-enum class PushedSolids {
-    kTurned,   ///< round what friction holds of it (kernels/bodies/holding.h)
+enum class PushedBodies {
+    kTurned,   ///< solids are turned round what friction holds of them (kernels/bodies/holding.h),
+               ///< and it is known what presses them (reactions.h)
     kShifted,  ///< by xpbd, whose bodies turn by themselves
 };
 
@@ -21,7 +22,7 @@ enum class PushedSolids {
 class MomentSums {
 public:
     /// bodies must outlive this.
-    MomentSums(FreeBodies& bodies, PushedSolids solids);
+    MomentSums(FreeBodies& bodies, PushedBodies pushed);
 
     /// starts: [vertices] targets before obstacles have pushed them; null: there are none.
     std::vector<Launch> sum(Model& model, Buffer<float4>& positions, Buffer<float4>& targets,

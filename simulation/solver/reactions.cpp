@@ -15,7 +15,7 @@ Reactions::Reactions(Model& model, const FreeBodies& bodies, const Setting& sett
       strips_{kinds().front(), kind, {}} {
     for (int r = 0; r < bodies.run_count(); ++r) {
         const FreeBodies::Run& run = bodies.run(r);
-        if (!run.is_solid && setting_.contact == nullptr) continue;
+        if (!run.is_solid) continue;
         std::fill(borne_.data() + run.begin, borne_.data() + run.end, 1.0f);
     }
     Buffer<float>& sums = setting_.derivatives.sums();

@@ -30,7 +30,8 @@ public:
         bool keeps_blocks;               ///< whether their Hessian blocks outlive tasks
         ContactResponse* contact;        ///< null: none
     };
-    /// bodies: of which solids count, and in scenes with contact all
+    /// bodies: of which solids count. (Piles of cloth would be thrown: what presses the lowest one
+    /// of them in a few iterations is many times what lies on it.)
     Reactions(Model& model, const FreeBodies& bodies, const Setting& setting, int kind);
 
     static std::vector<std::string> kinds() { return {"reactions"}; }

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <string>
 
 #include "simulation/families/convert.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
@@ -22,43 +22,6 @@ point = [0, 0, 0]
 thickness = 0.01
 friction = 0.3
 )";
-
-/// A block of 4 kg on a sheet of 50 g on a plane.
-const std::string kSandwich = R"(
-[scene]
-frames = 1
-dt = 0.02
-substeps = 5
-[solver]
-iterations = 8
-[contact]
-thickness = 0.01
-friction = 0.3
-[[cloth]]
-grid = { size = [0.4, 0.4], resolution = [14, 14] }
-translate = [0, 0.0105, 0]
-density = 0.3
-stretch = { stiffness = 1000 }
-[[solid]]
-grid = { size = [0.2, 0.1, 0.2], resolution = [5, 3, 5] }
-translate = [0, 0.072, 0]
-density = 1000
-young = 2e5
-poisson = 0.3
-damping = 2
-)" + kPlane;
-
-/// Without the plane's reaction in the steps of bodies as wholes the block sank by 3 to 40 mm.
-TEST_P(Bearing, ObstaclesBearWhatOthersPressOnThem) {
-    ManualRun run(scene_of(kSandwich));
-    const Vec3 before = momentum_of(run, 1).place;
-    for (int frame = 0; frame < 40; ++frame) {
-        run.run(1);
-        const Vec3 gone = momentum_of(run, 1).place - before;
-        EXPECT_LT(std::abs(gone.y), 2.5e-3) << "frame " << frame;
-        EXPECT_LT(std::hypot(gone.x, gone.z), 5e-3) << "frame " << frame;
-    }
-}
 
 /// Falls on an edge.
 const std::string kTilted = R"(
@@ -87,16 +50,48 @@ double energy_of(const ManualRun& run) {
     return sum;
 }
 
-TEST_P(Bearing, WhatLandsGainsHardlyAnyEnergy) {
-    ManualRun run(scene_of(kTilted));
+/// The most in so many frames, in parts of that at the start.
+double most_energy(ManualRun& run, int frames) {
     const double start = energy_of(run);
     double most = 0.0;
-    for (int frame = 0; frame < 25; ++frame) {
+    for (int frame = 0; frame < frames; ++frame) {
         run.run(1);
         most = std::max(most, energy_of(run) / start);
     }
+    return most;
+}
+
+/// It was 2.4 times by jpgd.
+TEST_P(Bearing, WhatLandsGainsHardlyAnyEnergy) {
+    ManualRun run(scene_of(kTilted));
+    const double most = most_energy(run, 25);
     EXPECT_LT(most, 1.15);
     EXPECT_GT(most, 0.9);
+}
+
+std::string block(int number, int density) {
+    return "[[solid]]\ngrid = { size = [0.2, 0.1, 0.2], resolution = [4, 3, 4] }\n"
+           "translate = [0, " +
+           std::to_string(0.0605 + 0.111 * number) + ", 0]\nrotate = [0, 1, 0, " +
+           std::to_string(17 * number) + "]\ndensity = " + std::to_string(density) +
+           "\nyoung = 1e6\npoisson = 0.3\n";
+}
+
+/// Each ten times as heavy as what it lies on. It was 3.2 times by vbd, and 1.37 by newton.
+TEST_P(Bearing, HeavyPilesGainHardlyAnyEnergy) {
+    const std::string head = R"(
+[scene]
+frames = 1
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 8
+[contact]
+thickness = 0.01
+friction = 0.3
+)";
+    ManualRun run(scene_of(head + block(0, 100) + block(1, 1000) + block(2, 10000) + kPlane));
+    EXPECT_LT(most_energy(run, 40), 1.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Bearing,
