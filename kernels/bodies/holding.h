@@ -11,8 +11,8 @@
 
 WEFT_KERNELS_BEGIN
 
-/// So many times heavier than it is counts what is held. With 100 blocks creep on slopes that are
-/// hardly less steep than friction holds (docs/measurements.md, "Blocks that obstacles push").
+/// So many times heavier than it is counts what is held. With 10 blocks creep where they should not
+/// (docs/measurements.md, "What obstacles bear").
 #define WEFT_HELD_WEIGHT 30.0f
 
 /// In parts of the body's mass, with r from a place that is the same for all of the body.

@@ -26,7 +26,6 @@ typedef struct {
     real3 way;     ///< that it has gone in the substep [m]
     real lead;     ///< of push . way: of what has been pushed [m^2]
     real pushed;   ///< above 0 where obstacles have pushed vertices of what is not to be turned [m]
-    real known;    ///< 1 where pushes are known with what presses (reactions.h), else 0
     holding hold;  ///< of what is, none of the rest
 } moments;
 
@@ -40,7 +39,6 @@ WEFT_INLINE moments no_moments(void) {
                  zero,
                  zero,
                  zero,
-                 splat(0.0f),
                  splat(0.0f),
                  splat(0.0f),
                  no_holding()};
@@ -59,7 +57,6 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.way = add_scaled(a.way, b.way, share);
     a.lead = a.lead + b.lead * share;
     a.pushed = a.pushed + b.pushed * share;
-    a.known = a.known + b.known * share;
     a.hold = add_share_of_holding(a.hold, b.hold, share);
     return a;
 }
@@ -79,7 +76,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 8), with_w(m.hold.place, m.hold.part));
     store4(table, column(i, rows, 9), with_w(make3(held.xx, held.xy, held.xz), splat(0.0f)));
     store4(table, column(i, rows, 10), with_w(make3(held.yy, held.yz, held.zz), splat(0.0f)));
-    store4(table, column(i, rows, 11), with_w(m.torque, m.known));
+    store4(table, column(i, rows, 11), with_w(m.torque, splat(0.0f)));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -102,9 +99,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
     const real4 way = gather4(table + 7 * stride, k);
     m.way = xyz(way);
     m.lead = way.w;
-    const real4 torque = gather4(table + 11 * stride, k);
-    m.torque = xyz(torque);
-    m.known = torque.w;
+    m.torque = xyz(gather4(table + 11 * stride, k));
     const real4 place = gather4(table + 8 * stride, k);
     const real4 first_row = gather4(table + 9 * stride, k);
     const real4 rest = gather4(table + 10 * stride, k);
@@ -122,8 +117,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 ///            has_pushes
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// firm      [columns] 1: the body is turned while obstacles push it, too, and it is known what presses
-///           it (reactions.h); 0: neither
+/// firm      [columns] 1: the body is turned while obstacles push it, too; 0: it is not
 /// partials  [12 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
@@ -150,7 +144,6 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         one.lag = lag;
         one.lags = outer_mat(r, lag);
         one.pushed = target.w * (splat(1.0f) - turned);
-        one.known = turned;
         if (has_pushes) {
             one.push = subtract(xyz(target), xyz(gather4(starts, v)));
             one.torque = cross3(r, one.push);
@@ -191,14 +184,14 @@ typedef struct {
     real share;  ///< of what obstacles have pushed it that is left out
 } borne_lag;
 
-/// What bears a body does not throw it. Where pushes are known with what presses (reactions.h),
-/// that has not gone through the body yet if iterations are few, and is more than bears it then. So
-/// these pushes take from what leads the body into the obstacle, up to all of it, and lead it
-/// nowhere.
+/// What bears a body does not throw it. Of bodies that are turned while obstacles push them, pushes
+/// are known with what presses (reactions.h). That has not gone through the body yet if iterations
+/// are few, and is more than bears it then. So these pushes take from what leads the body into the
+/// obstacle, up to all of it, and lead it nowhere.
 ///
-/// Others push by what single vertices weigh alone, again in each iteration, until what lies behind
-/// them has followed; after many iterations that are yet too few, that may be more than the body
-/// needs. It may be led as far as what has been pushed has got to, and all that would lead it
+/// Others are pushed by what single vertices weigh alone, again in each iteration, until what lies
+/// behind them has followed; after many iterations that are yet too few, that may be more than the
+/// body needs. It may be led as far as what has been pushed has got to, and all that would lead it
 /// further has not been pushed.
 /// lag   how far its inertia leads the body from where it is, with all pushes [m]
 /// gone  how far it has been moved since its moments were taken [m]
@@ -208,7 +201,7 @@ WEFT_INLINE borne_lag without_throw(real3 lag, moments m, real3 gone) {
     const real shrink = splat(1.0f) / divisor(length);
     const real3 up = scale(m.push, shrink);
     const real behind = m.lead * shrink - dot3(up, add(m.way, gone));
-    const real allowed = m.known > zero ? zero : larger(behind, zero);
+    const real allowed = m.pushed > zero ? larger(behind, zero) : zero;
     const real excess = dot3(lag, up) - allowed;
     const real left_out = larger(smaller(excess, length), zero);
     const borne_lag borne = {add_scaled(lag, up, -left_out), left_out * shrink};

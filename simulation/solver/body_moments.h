@@ -9,7 +9,7 @@ namespace weft {
 class BodyMoments {
 public:
     /// bodies must outlive this. first_run, counts: [bodies] of each one's runs
-    BodyMoments(FreeBodies& bodies, PushedBodies pushed, Buffer<int>& first_run,
+    BodyMoments(FreeBodies& bodies, PushedSolids solids, Buffer<int>& first_run,
                 Buffer<float>& counts);
 
     /// First they are added up by runs,
@@ -18,7 +18,7 @@ public:
     Launch weigh(const Segments& all);
     void add_weigh_accesses(Step::Adding& task);
 
-    /// [11 * (bodies + 1)] see the kernel
+    /// [12 * (bodies + 1)] see the kernel
     Buffer<float4>& moments() { return moments_; }
     void add_reads(Step::Adding& task);
 

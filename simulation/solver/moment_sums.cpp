@@ -15,7 +15,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 /// The vertex in the middle of a body's order is somewhere in its middle.
-MomentSums::MomentSums(FreeBodies& bodies, PushedBodies pushed)
+MomentSums::MomentSums(FreeBodies& bodies, PushedSolids solids)
     : bodies_(bodies),
       origins_("free.origins", at(bodies.column_count())),
       firm_("free.firm", origins_.count()),
@@ -26,9 +26,8 @@ MomentSums::MomentSums(FreeBodies& bodies, PushedBodies pushed)
         const int middle = (bodies.run(first).begin + bodies.run(end - 1).end) / 2;
         std::fill(origins_.data() + WEFT_RUN_COLUMNS * first,
                   origins_.data() + WEFT_RUN_COLUMNS * end, middle);
-        const bool is_turned = bodies.run(first).is_solid && pushed != PushedBodies::kShifted;
         std::fill(firm_.data() + WEFT_RUN_COLUMNS * first, firm_.data() + WEFT_RUN_COLUMNS * end,
-                  is_turned ? 1.0f : 0.0f);
+                  bodies.run(first).is_solid && solids == PushedSolids::kTurned ? 1.0f : 0.0f);
     }
 }
 

@@ -9,11 +9,10 @@
 
 namespace weft {
 
-/// What is done with a body while obstacles push it. (Cloth is shifted then: what hangs from what
+/// What is done with a solid while obstacles push it. (Cloth is shifted then: what hangs from what
 /// it drapes over would turn it.)
-enum class PushedBodies {
-    kTurned,   ///< solids are turned round what friction holds of them (kernels/bodies/holding.h),
-               ///< and it is known what presses them (reactions.h)
+enum class PushedSolids {
+    kTurned,   ///< round what friction holds of it (kernels/bodies/holding.h)
     kShifted,  ///< by xpbd, whose bodies turn by themselves
 };
 
@@ -22,7 +21,7 @@ enum class PushedBodies {
 class MomentSums {
 public:
     /// bodies must outlive this.
-    MomentSums(FreeBodies& bodies, PushedBodies pushed);
+    MomentSums(FreeBodies& bodies, PushedSolids solids);
 
     /// starts: [vertices] targets before obstacles have pushed them; null: there are none.
     std::vector<Launch> sum(Model& model, Buffer<float4>& positions, Buffer<float4>& targets,
@@ -32,7 +31,7 @@ public:
     /// and of others: the vertex that a body is seen from may lie there.
     void add_origin_reads(Step::Adding& task, const Region& region, Buffer<float4>& positions);
 
-    /// [columns], [11 * (runs + most_runs)] see the kernels
+    /// [columns], [12 * (runs + most_runs)] see the kernels
     Buffer<int>& origins() { return origins_; }
     Buffer<float4>& sums() { return sums_; }
     void add_reads(Step::Adding& task);
@@ -43,7 +42,7 @@ private:
     Buffer<float4>* starts_ = nullptr;  ///< those; null: no obstacles
     Buffer<int> origins_;
     Buffer<float> firm_;       ///< [columns]
-    Buffer<float4> partials_;  ///< [11 * columns]
+    Buffer<float4> partials_;  ///< [12 * columns]
     Buffer<float4> sums_;
 };
 

@@ -59,7 +59,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
       bearings_("touching.bearings", motions_.count()),
-      moments_(bodies, multipliers ? PushedBodies::kShifted : PushedBodies::kTurned, first_run_,
+      moments_(bodies, multipliers ? PushedSolids::kShifted : PushedSolids::kTurned, first_run_,
                counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);

@@ -1,5 +1,5 @@
-// What convex obstacles bear, by few iterations: what lands on them gains no energy by that, and
-// what is pressed on them by others stays where it is.
+// What convex obstacles bear, by few iterations: neither what lands on them nor what is piled up
+// there gains energy by that.
 
 #include <gtest/gtest.h>
 
