@@ -59,12 +59,17 @@ WEFT_INLINE holding holding_from(holding h, real3 lever) {
     return h;
 }
 
-/// What motions have to overcome there, beside the body's inertia.
-WEFT_INLINE sym6 form_of_holding(holding h) {
+/// The form of motions, of the ways of what is there.
+WEFT_INLINE sym6 form_of_places(holding h) {
     const sym3 turned = scale_sym(h.spread, splat(-1.0f));
     const sym6 a = {diagonal_sym(h.part), lever_mat(h.place),
                     add_diagonal(turned, trace_sym(h.spread))};
-    return add_scaled_sym6(no_sym6(), a, splat(WEFT_HELD_WEIGHT));
+    return a;
+}
+
+/// What motions have to overcome there, beside the body's inertia.
+WEFT_INLINE sym6 form_of_holding(holding h) {
+    return add_scaled_sym6(no_sym6(), form_of_places(h), splat(WEFT_HELD_WEIGHT));
 }
 
 WEFT_KERNELS_END

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,13 @@ struct FamilyNames {
 struct Edge {
     int a, b;     ///< vertices, new order
     double rest;  ///< its length at rest [m]
+};
+
+/// A spring that ties what may be two bodies, and belongs to neither.
+struct Tie {
+    double rest;       ///< its length at time 0 [m],
+    double rate;       ///< of which it loses so much per second [1/s], until nothing is left
+    double stiffness;  ///< [N/m]
 };
 
 /// A state that is no state: what is wrong with which vertex.
@@ -192,6 +200,8 @@ public:
     /// Of all elements [J], added up in blocks by as many threads as there are: always in the same
     /// order. positions: [vertices]
     double total_energy(std::span<const float4> positions) const;
+    /// Of an element that is one.
+    virtual std::optional<Tie> tie(int /*element*/) const { return std::nullopt; }
     /// Adds the edges of bodies that elements lie along; of elements that share one, each its own.
     virtual void add_edges(std::vector<Edge>& /*edges*/) const {}
 

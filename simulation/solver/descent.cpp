@@ -22,6 +22,12 @@ int DescentSubstep::next_kind() const {
     return first_kind_ + static_cast<int>(kinds.size());
 }
 
+void DescentSubstep::lead_tied_parts() { ties_ = TiedParts::of(model_, targets_, next_kind()); }
+
+void DescentSubstep::add_start(Step& step) {
+    if (ties_) ties_->add(step);
+}
+
 void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots) {
     narrow_ = NarrowTask::of(model_, {std::move(iterates), &targets_, contact_.get(), snapshots},
                              next_kind());
@@ -59,6 +65,7 @@ void DescentSubstep::add_last_narrow(Step& step, const std::vector<Region>& regi
 void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);
+    if (ties_) bodies.push_back(&ties_->body());
     if (narrow_) narrow_->list_bodies(bodies);
     if (reactions_) reactions_->list_bodies(bodies);
 }
@@ -66,6 +73,7 @@ void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
 void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (contact_) std::ranges::copy(contact_->kinds(), std::back_inserter(kinds));
     std::ranges::copy(momentum_.kinds(), std::back_inserter(kinds));
+    if (ties_) std::ranges::copy(TiedParts::kinds(), std::back_inserter(kinds));
     if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds));
     if (reactions_) std::ranges::copy(Reactions::kinds(), std::back_inserter(kinds));
 }

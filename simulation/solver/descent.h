@@ -12,6 +12,7 @@
 #include "simulation/solver/halo.h"
 #include "simulation/solver/narrow_task.h"
 #include "simulation/solver/reactions.h"
+#include "simulation/solver/tied_parts.h"
 
 namespace weft {
 
@@ -28,6 +29,11 @@ public:
     Step::Adding add_end(Step& step, const TaskBody& body, const Region& region, int iteration);
     /// Behind the ends of all regions: what is measured of a substep.
     void add_measurements(Step& step, const std::vector<Region>& regions, int iteration);
+
+    /// Lets what soft ties hold begin where these lead it as a whole.
+    void lead_tied_parts();
+    /// Behind the beginnings of all regions.
+    void add_start(Step& step);
 
     /// Where the iterates are; without it obstacles keep out vertices alone.
     /// snapshots: as in NarrowTask::Setting
@@ -76,6 +82,7 @@ private:
     Buffer<float4> targets_;
     std::unique_ptr<ContactResponse> contact_;
     BodyMomentum momentum_;
+    std::unique_ptr<TiedParts> ties_;       ///< null: none, or nobody asked for it
     std::unique_ptr<NarrowTask> narrow_;    ///< null: no narrow obstacles
     std::unique_ptr<Reactions> reactions_;  ///< null: no obstacles that push free bodies
     int first_kind_;

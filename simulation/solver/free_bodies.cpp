@@ -4,6 +4,7 @@
 
 #include "kernels/bodies/runs.h"
 #include "scheduler/assert.h"
+#include "simulation/solver/part_columns.h"
 #include "simulation/topology/components.h"
 
 namespace weft {
@@ -104,28 +105,24 @@ void FreeBodies::fill_bodies() {
 }
 
 void FreeBodies::fill_columns(const Model& model, const std::vector<int>& bodies) {
-    std::vector<int> members;
-    std::vector<float> shares;
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-        const Run& run = runs_[r];
+    std::vector<std::size_t> sizes;
+    std::vector<int> vertices;
+    std::vector<double> shares;
+    for (const Run& run : runs_) {
         double mass = 0.0;
         for (int v = bodies[at(run.body)]; v < bodies[at(run.body + 1)]; ++v)
             mass += model.masses[at(v)];
-        const int rows = (run.end - run.begin + kColumns - 1) / kColumns;
-        for (int c = 0; c < kColumns; ++c) {
-            rows_[2 * (kColumns * r + at(c))] = static_cast<int>(members.size()) + c;
-            rows_[2 * (kColumns * r + at(c)) + 1] = rows;
-        }
-        for (int v = run.begin; v < run.begin + rows * kColumns; ++v) {
-            const bool is_member = v < run.end;
-            members.push_back(is_member ? v : run.begin);
-            shares.push_back(is_member ? static_cast<float>(model.masses[at(v)] / mass) : 0.0f);
+        sizes.push_back(at(run.end - run.begin));
+        for (int v = run.begin; v < run.end; ++v) {
+            vertices.push_back(v);
+            shares.push_back(model.masses[at(v)] / mass);
         }
     }
-    members_ = std::make_unique<Buffer<int>>("free.members", members.size());
-    shares_ = std::make_unique<Buffer<float>>("free.shares", shares.size());
-    std::ranges::copy(members, members_->data());
-    std::ranges::copy(shares, shares_->data());
+    const PartColumns columns = lay_in_columns(sizes);
+    std::ranges::copy(columns.rows, rows_.data());
+    members_ = std::make_unique<Buffer<int>>("free.members", columns.entries.size());
+    shares_ = std::make_unique<Buffer<float>>("free.shares", columns.entries.size());
+    fill_members(columns, vertices, shares, *members_, *shares_);
 }
 
 bool FreeBodies::reach_into(int first_strip, int end_strip) const {

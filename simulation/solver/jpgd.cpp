@@ -120,6 +120,7 @@ public:
         const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+        substep_.add_start(step);
         substep_.add_first_narrow(step, regions);
         if (contact_ != nullptr) contact_->add_detection(step, regions);
         for (int i = 0; i < iterations_; ++i) {
@@ -181,6 +182,7 @@ private:
             }
         }
         substep_.momentum().look_at(after(iterations_));
+        substep_.lead_tied_parts();
         substep_.keep_triangles_out({&after(0), &after(1)}, /*snapshots=*/false);
         substep_.look_at_reactions(items_, derivatives_, {kInnerPhase}, after(iterations_),
                                    /*keeps_blocks=*/true);

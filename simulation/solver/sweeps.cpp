@@ -9,6 +9,7 @@ SweepSolver::SweepSolver(Model& model)
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
     substep_.momentum().look_at(*model.positions);
+    substep_.lead_tied_parts();
     substep_.keep_triangles_out({model.positions.get()}, /*snapshots=*/true);
 }
 
@@ -79,6 +80,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     const int iterations = model_.scene.solver.iterations;
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
+    substep_.add_start(step);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
     for (int i = 0; i < iterations; ++i) {
         add_iteration(step, regions, i);

@@ -1,4 +1,5 @@
 #include "kernels/bodies/free_bodies.h"
+#include "kernels/bodies/ties.h"
 #include "tests/kernels/held_point.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -79,8 +80,79 @@ void push_case(KernelCase& c) {
     c.launch = launch(kernels::push_velocities, c.segments, positions, pushed, velocities, 240.0f);
 }
 
+constexpr int kParts = 3;
+
+/// A column for each item, of two rows.
+void pull_case(KernelCase& c) {
+    const int entries = c.items + WEFT_RUN_COLUMNS;
+    auto& positions = add_points(c, "positions", c.items);
+    auto& ends = add_indices(c, "ends", 2 * entries, c.items);
+    auto& parts = add_indices(c, "parts", 2 * entries, kParts + 1);
+    auto& springs = c.add<float>("springs", 4 * entries);
+    for (float& value : springs.span()) value = c.random.real(0.1f, 2.0f);
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = 2;
+    }
+    auto& motions = add_points(c, "motions", 3 * (kParts + 1));
+    auto& clock = c.add<float>("clock", 2);
+    clock[0] = 0.25f;
+    clock[1] = 1.5f;
+    auto& partials = c.add<float4>("partials", WEFT_TIE_PARTS * c.items);
+    c.launch = launch(kernels::pull_parts, c.segments, positions, ends, parts, springs, rows,
+                      motions, clock, partials, entries, kParts, c.items, kInstance);
+}
+
+Buffer<int>& add_numbers(KernelCase& c) {
+    auto& numbers = c.add<int>("numbers", c.items);
+    for (int i = 0; i < c.items; ++i) numbers[at(i)] = i;
+    return numbers;
+}
+
+void start_parts_case(KernelCase& c) {
+    auto& sums = add_sums(c, c.items + 1);
+    auto& numbers = add_numbers(c);
+    auto& motions = add_points(c, "motions", 3 * (c.items + 1));
+    c.launch = launch(kernels::start_parts, c.segments, sums, numbers, motions, c.items);
+}
+
+/// Ties in points near the part, or none.
+void step_parts_case(KernelCase& c) {
+    const int columns = WEFT_RUN_COLUMNS * c.items;
+    auto& sums = add_sums(c, c.items + 1);
+    auto& numbers = add_numbers(c);
+    auto& partials = c.add<float4>("partials", WEFT_TIE_PARTS * columns);
+    for (int k = 0; k < columns; ++k) {
+        const float4 pull = c.random.point(0.01f);
+        const float4 r = c.random.point(1.0f);
+        const float stiffness = c.random.integer(0, 3) == 0 ? c.random.real(0.0f, 0.5f) : 0.0f;
+        const auto row = [&](int n) -> float4& { return partials[at(n * columns + k)]; };
+        row(0) = {pull.x, pull.y, pull.z, stiffness * r.x * r.x};
+        row(1) = {pull.y, pull.z, pull.x, stiffness * r.x * r.y};
+        row(2) = {stiffness * r.x, stiffness * r.y, stiffness * r.z, stiffness};
+        row(3) = {stiffness * r.y * r.y, stiffness * r.y * r.z, stiffness * r.z * r.z,
+                  stiffness * r.x * r.z};
+    }
+    auto& motions = add_points(c, "motions", 3 * (c.items + 1));
+    c.launch =
+        launch(kernels::step_parts, c.segments, sums, numbers, partials, motions, c.items, columns);
+}
+
+void move_parts_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& vertices = c.add<int>("vertices", c.items);
+    for (int i = 0; i < c.items; ++i) vertices[at(i)] = c.items - 1 - i;
+    auto& parts = add_indices(c, "parts", c.items, kParts);
+    auto& motions = add_points(c, "motions", 3 * (kParts + 1));
+    c.launch = launch(kernels::move_parts, c.segments, positions, vertices, parts, motions, kParts);
+}
+
 const bool added = add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
-                   add_case("move_runs", move_case) && add_case("push_velocities", push_case);
+                   add_case("move_runs", move_case) && add_case("push_velocities", push_case) &&
+                   add_case("start_parts", start_parts_case) && add_case("pull_parts", pull_case) &&
+                   add_case("step_parts", step_parts_case) &&
+                   add_case("move_parts", move_parts_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -22,6 +22,11 @@ std::vector<std::string> Springs::parts() const {
     return list;
 }
 
+std::optional<Tie> Springs::tie(int spring) const {
+    if (is_edge(spring)) return std::nullopt;
+    return Tie{rest_length(spring), 0.0, stiffness(spring)};
+}
+
 void Springs::add_edges(std::vector<Edge>& edges) const {
     edges.reserve(edges.size() + static_cast<std::size_t>(count()));
     for (int s = 0; s < count(); ++s) {

@@ -38,7 +38,9 @@ public:
     double energy(int spring, const Vec3* x) const override;
     void gradient(int spring, const Vec3* x, Vec3* gradient) const override;
     void hessian(int spring, const Vec3* x, Mat3* blocks) const override;
-    /// Attachments are none.
+    /// Attachments are.
+    std::optional<Tie> tie(int spring) const override;
+    /// And they are no edges.
     void add_edges(std::vector<Edge>& edges) const override;
 
     Buffer<float> material;  ///< [2 * count] column-major: rest length [m], compliance 1/k [m/N]

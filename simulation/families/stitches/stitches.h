@@ -42,6 +42,10 @@ public:
     void gradient(int stitch, const Vec3* x, Vec3* gradient) const override;
     void hessian(int stitch, const Vec3* x, Mat3* blocks) const override;
 
+    std::optional<Tie> tie(int stitch) const override {
+        return Tie{start(stitch), rate(stitch), stiffness(stitch)};
+    }
+
     Buffer<float> material;  ///< [3 * count] column-major: start [m], compliance [m/N], rate [1/s]
     Owned<Buffer<float>> clock;  ///< [substeps] time at their ends [s]
 

@@ -135,10 +135,13 @@ TEST(AsyncJpgd, NobodyLooksBehindACheck) {
     Warnings warnings;
     Model model(scene, warnings);
     const int strips = model.strips.count();
+    const Division halves{{strips / 2, strips - strips / 2}};
+    const auto base = make_solver(model);
+    const Step in_step = base->make_step(halves.partition());
     for (const char* settings : {"settle=0", "window=4,settle=0"}) {
         AsyncIterates solver(model, make_solver(model), 2, parse_async_settings(settings));
-        const auto problem =
-            solver.problem_of(Division{{strips / 2, strips - strips / 2}}.partition());
+        const auto problem = solver.problem_of(halves.partition());
+        ASSERT_EQ(problem.tasks.size(), in_step.tasks().size());
         Seen seen;
         int looks = 0;
         for (const auto& step : scheduler::make_exchange_map(problem).steps) {
@@ -161,6 +164,8 @@ TEST(AsyncJpgd, NobodyLooksBehindACheck) {
                     }
                 }
             }
+            // Where all parts begin, one device may have led vertices of both.
+            if (in_step.tasks()[static_cast<std::size_t>(step.task)].body->name == "ties") continue;
             for (const auto& range : task.writes) {
                 for (int c = range.begin; c < range.end; ++c)
                     seen[{task.device, c}][task.device] = task.iteration;

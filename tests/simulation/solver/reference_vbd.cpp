@@ -8,6 +8,7 @@
 #include "simulation/families/membranes/membranes.h"
 #include "simulation/families/springs/springs.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
+#include "tests/simulation/solver/reference_ties.h"
 
 namespace weft::test {
 
@@ -74,6 +75,7 @@ ReferenceVbd::ReferenceVbd(const Model& model)
 void ReferenceVbd::substep(double time) {
     const std::vector<Vec3> previous = x;
     begin(time);
+    lead_parts(model_, x, target_);
     for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
         for (const int vertex : layout_.vertices) move(vertex);
         collide();
