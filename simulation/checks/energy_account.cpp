@@ -27,6 +27,7 @@ constexpr double kMostHiddenStrainOfSolids = 4.0;
 constexpr double kTornStrain = 1.0;  ///< of one edge
 // What contacts have stored is seen as little in edges as it has to do with them.
 constexpr double kMostInContacts = 10.0;
+constexpr double kMostInTies = 10.0;  ///< likewise
 // And what no such sweep does.
 constexpr double kExplodingMotion = 10.0;
 constexpr double kExplodingStrain = 1000.0;
@@ -102,6 +103,20 @@ EnergyAccount::EnergyAccount(const Model& model, const Energies& start)
              energy_inside_obstacles(model)) {
     last_.start = start.total();
     last_.energies = start;
+    for (const auto& family : model.families) {
+        for (int e = 0; e < family->count(); ++e) {
+            if (family->tie(e)) ties_.push_back({&*family, e});
+        }
+    }
+}
+
+double EnergyAccount::energy_of_ties(const Model& model) const {
+    double sum = 0.0;
+    for (const auto& [family, element] : ties_) {
+        sum +=
+            family->energy(element, family->positions_of(element, model.positions->span()).data());
+    }
+    return sum;
 }
 
 EnergyAccount::Entry EnergyAccount::with_frame(double time, const OutsideWork& outside,
@@ -124,7 +139,8 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double most = most_strain(model, strain);
     const auto is_fine = [&](double enough) {
         return motion <= kMostMotion * enough && strained <= most * enough &&
-               pressed <= kMostInContacts * enough;
+               pressed <= kMostInContacts * enough &&
+               (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
     };
     // What rounding gives takes a while to find out, and is hardly ever asked for.
     if (is_fine(had + small_)) return std::nullopt;

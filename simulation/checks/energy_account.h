@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "simulation/checks/outside_work.h"
 #include "simulation/diagnostics.h"
@@ -55,7 +56,15 @@ public:
 
 private:
     double closed_;  ///< [s] when the last seam is: until then the ends of frames tell too little
-    double small_;   ///< [J] that a little fall gives, and what starts inside obstacles gets
+    /// An element that is one.
+    struct TieElement {
+        const ElementFamily* family;
+        int element;
+    };
+    double energy_of_ties(const Model& model) const;
+
+    std::vector<TieElement> ties_;
+    double small_;  ///< [J] that a little fall gives, and what starts inside obstacles gets
     Entry last_;
 };
 
