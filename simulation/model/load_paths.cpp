@@ -12,6 +12,7 @@ namespace weft {
 namespace {
 
 constexpr int kFar = -1;
+constexpr int kHere = -2;
 constexpr double kStrainOfCloth = 0.005;
 constexpr double kStrainOfSolids = 0.001;
 constexpr double kLongestStep = 1.0 / 240.0;  ///< [s]
@@ -73,7 +74,28 @@ private:
         path.burden = lightest->second > 0.0 ? mass / lightest->second : 1.0;
         path.is_solid = std::ranges::all_of(
             masses, [&](const auto& entry) { return all_.bodies[entry.first].kind == "solid"; });
+        if (path.is_solid && path.is_held) {
+            path.slender = std::max(1.0, path.levels * path.edge / thickness_of(part));
+        }
         return path;
+    }
+
+    /// Four times volume over surface: that of a long bar with a square across [m].
+    double thickness_of(const std::vector<int>& part) {
+        for (const int v : part) levels_[at(v)] = kHere;
+        double volume = 0.0;
+        double area = 0.0;
+        for (const auto& [a, b, c] : all_.triangles) {
+            if (levels_[at(a)] != kHere) continue;
+            const Vec3 from = all_.rest[at(part.front())];
+            const Vec3 x = all_.rest[at(a)] - from;
+            const Vec3 normal =
+                cross(all_.rest[at(b)] - all_.rest[at(a)], all_.rest[at(c)] - all_.rest[at(a)]);
+            volume += dot(x, normal) / 6.0;
+            area += 0.5 * length(normal);
+        }
+        for (const int v : part) levels_[at(v)] = kFar;
+        return std::max(4.0 * std::abs(volume) / std::max(area, 1e-18), 1e-9);
     }
 
     /// Of the bodies that the part belongs to. A solid's inside is on no triangle: it counts whole.
@@ -143,7 +165,7 @@ int believable_substeps(std::span<const LoadPath> paths, double dt, int iteratio
                         double gravity) {
     double substeps = dt / kLongestStep;
     for (const LoadPath& path : paths) {
-        const double wanted = path.is_solid ? kStrainOfSolids : kStrainOfCloth;
+        const double wanted = path.is_solid ? kStrainOfSolids / path.slender : kStrainOfCloth;
         const double strain = unfinished_strain(path, dt, iterations, gravity);
         substeps = std::max(substeps, std::sqrt(strain / wanted));
     }
