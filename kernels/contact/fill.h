@@ -7,28 +7,13 @@
 
 #include "kernels/columns.h"
 #include "kernels/contact/boxes.h"
-#include "kernels/contact/closest.h"
+#include "kernels/contact/found.h"
 #include "kernels/contact/rows.h"
 
 /// A pair is a contact that may push if it gets nearer than so many ranges.
 #define WEFT_CONTACT_MARGIN 1.25f
 
 WEFT_KERNELS_BEGIN
-
-/// What the scene says of contacts.
-typedef struct {
-    float range;      ///< where they begin to push [m]
-    float slack;      ///< what planes leave between surfaces [m]
-    float stiffness;  ///< of a contact, times the least of its vertices' [-]
-} contact_settings;
-
-/// The four vertices of a pair where it was found, and where inertia leads them.
-typedef struct {
-    real3 x0, x1, x2, x3;                 ///< [m]
-    real3 way0, way1, way2, way3;         ///< [m]
-    real moves0, moves1, moves2, moves3;  ///< 1, or 0 where held
-    real least;                           ///< stiffness of one that moves [N/m]
-} contact_pair;
 
 /// What vertices have that may be of a pair; see fill_contacts.
 typedef struct {
@@ -69,111 +54,6 @@ WEFT_INLINE contact_pair load_pair(contact_vertices vertices, contact_corners co
     p.least = smaller(smaller(gather(vertices.stiffness, c0), gather(vertices.stiffness, c1)),
                       smaller(gather(vertices.stiffness, c2), gather(vertices.stiffness, c3)));
     return p;
-}
-
-/// The most that one of two vertices goes towards the other side; if both shall count, or the
-/// first alone.
-WEFT_INLINE real approach_of(real a, real b) { return larger(larger(a, b), splat(0.0f)); }
-
-/// Where the plane between the two sides ends, from the closest point of B on, along n. Each side
-/// gets what inertia asks for and half of what is left then, so that one which hardly moves can
-/// still be pushed, or swing; where the gap is too small for that, both get a part of it by how
-/// fast they come. What is led by the scene comes as far as it wants: the plane goes before it,
-/// also over where the other side is, and that one keeps a reserve from it, lest the gap shrink
-/// from substep to substep until nothing is left of it. (Where both are led through each other, it
-/// goes between.)
-/// distance     of the two sides [m]
-/// a, b         the most that vertices of a side come nearer [m]
-/// led_a, led_b  likewise, of held vertices alone
-/// least        what is left to share where there is nothing [m]
-/// reserve      no less than that, and no more than the distance [m]
-WEFT_INLINE real plane_end(real distance, real a, real b, real led_a, real led_b, real least,
-                           real reserve) {
-    const real zero = splat(0.0f);
-    const real one = splat(1.0f);
-    const real own_a = a - led_a;
-    const real own_b = b - led_b;
-    const real left = distance - led_a - led_b;
-    const real comes_a = led_a > zero ? (own_a + led_b > zero ? zero : one) : zero;
-    const real comes_b = led_b > zero ? (own_b + led_a > zero ? zero : one) : zero;
-    const real shared = larger(left, comes_a + comes_b > zero ? reserve : least);
-    const real both_ways = own_a + own_b;
-    const real spare = larger(shared - both_ways, zero);
-    const real met = smaller(shared / larger(both_ways, splat(1e-12f)), one);
-    const real asked = own_b * met + splat(0.5f) * spare;
-    const real before_b = comes_b > zero ? larger(asked, reserve) : asked;
-    const real wanted = comes_a > zero ? smaller(before_b, shared - reserve) : before_b;
-    const real bounded = smaller(larger(wanted, splat(0.05f) * shared), splat(0.95f) * shared);
-    const real too_far = smaller(left - shared, zero);
-    const real part_of_a = led_a / larger(led_a + led_b, splat(1e-12f));
-    return led_b + bounded + too_far * part_of_a;
-}
-
-/// A contact as all of its vertices see it.
-typedef struct {
-    real3 normal;  ///< from B to A
-    real4 weights;
-    real distance;   ///< [m]
-    real ahead;      ///< the gap where inertia leads [m]
-    real spread;     ///< the sum of |w| of vertices that move
-    real4 room;      ///< of each vertex before its plane [m]
-    real stiffness;  ///< [N/m]
-} contact_found;
-
-/// is_edges  1: x0 x1 and x2 x3 are edges; 0: x0 is a vertex and x1 x2 x3 a triangle
-WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_settings settings) {
-    const real zero = splat(0.0f);
-    closest_points closest;
-    if (is_edges)
-        closest = closest_edges(p.x0, p.x1, p.x2, p.x3);
-    else
-        closest = closest_vertex_triangle(p.x0, p.x1, p.x2, p.x3);
-    contact_found f;
-    const real4 w = closest.weights;
-    f.weights = w;
-    f.distance = square_root(closest.square);
-    f.normal = scale(closest.way, splat(1.0f) / divisor(f.distance));
-    const real go0 = dot3(f.normal, p.way0);
-    const real go1 = dot3(f.normal, p.way1);
-    const real go2 = dot3(f.normal, p.way2);
-    const real go3 = dot3(f.normal, p.way3);
-    f.ahead = f.distance + (w.x * go0 + w.y * go1 + w.z * go2 + w.w * go3);
-    f.spread = size_of(w.x) * p.moves0 + size_of(w.y) * p.moves1 + size_of(w.z) * p.moves2 +
-               size_of(w.w) * p.moves3;
-    f.stiffness = splat(settings.stiffness) * p.least;
-
-    // Heights over x0 along n: of the corners, and of the closest points.
-    const real h1 = dot3(f.normal, subtract(p.x1, p.x0));
-    const real h2 = dot3(f.normal, subtract(p.x2, p.x0));
-    const real h3 = dot3(f.normal, subtract(p.x3, p.x0));
-    const real led0 = (splat(1.0f) - p.moves0) * go0;
-    const real led1 = (splat(1.0f) - p.moves1) * go1;
-    const real led2 = (splat(1.0f) - p.moves2) * go2;
-    const real led3 = (splat(1.0f) - p.moves3) * go3;
-    const real b23 = approach_of(go2, go3);
-    const real led23 = approach_of(led2, led3);
-    const real least = smaller(splat(settings.slack), splat(0.25f) * f.distance);
-    const real reserve = smaller(splat(settings.slack), f.distance);
-    if (is_edges) {
-        const real end = plane_end(f.distance, approach_of(-go0, -go1), b23,
-                                   approach_of(-led0, -led1), led23, least, reserve);
-        const real top = w.y * h1;
-        const real over = f.distance - end - top;
-        const real under = end - w.z * h2 - w.w * h3;
-        f.room.x = over;
-        f.room.y = over + h1;
-        f.room.z = under - h2;
-        f.room.w = under - h3;
-    } else {
-        const real end = plane_end(f.distance, approach_of(-go0, zero), larger(b23, go1),
-                                   approach_of(-led0, zero), larger(led23, led1), least, reserve);
-        const real under = end - w.y * h1 - w.z * h2 - w.w * h3;
-        f.room.x = f.distance - end;
-        f.room.y = under - h1;
-        f.room.z = under - h2;
-        f.room.w = under - h3;
-    }
-    return f;
 }
 
 WEFT_INLINE whole half_of(whole w) { return w >> splat_whole(1); }
@@ -222,7 +102,8 @@ WEFT_INLINE contact_part part_of(contact_found f, whole vertex, contact_corners 
     const real side1 = is_edges ? one : -one;
     contact_part part;
     part.side = is0 ? one : (is1 ? side1 : -one);
-    part.weight = is0 ? f.weights.x : (is1 ? f.weights.y : (is2 ? f.weights.z : f.weights.w));
+    const real4 w = f.push.weights;
+    part.weight = is0 ? w.x : (is1 ? w.y : (is2 ? w.z : w.w));
     part.room = is0 ? f.room.x : (is1 ? f.room.y : (is2 ? f.room.z : f.room.w));
     return part;
 }
@@ -249,10 +130,10 @@ WEFT_INLINE contact_rows add_entry(contact_rows row, mask may_push, contact_foun
     scatter_whole_where(fits, out.corner3, entry, c.c3);
     const real side = part.side;
     const real own = side * part.weight;
-    real4 weights = {f.weights.x * side, f.weights.y * side, f.weights.z * side,
-                     f.weights.w * side};
-    real4 measure = {own, own * f.spread, f.stiffness, splat(range)};
-    scatter4_where(fits, out.normals, entry, with_w(scale(f.normal, side), f.ahead));
+    const real4 w = f.push.weights;
+    real4 weights = {w.x * side, w.y * side, w.z * side, w.w * side};
+    real4 measure = {own, own * f.push.spread, f.stiffness, splat(range)};
+    scatter4_where(fits, out.normals, entry, with_w(scale(f.push.normal, side), f.push.ahead));
     scatter4_where(fits, out.weights, entry, weights);
     scatter4_where(fits, out.measures, entry, measure);
     row.contacts = may_push ? row.contacts + splat_whole(1) : row.contacts;
@@ -271,7 +152,8 @@ WEFT_INLINE contact_rows add_contact(contact_rows row, mask is_on, mask pushes, 
     const mask is_apart = both(is_on, f.distance > splat(1e-12f));
     row = add_plane(row, is_apart, scale(f.normal, part.side), part.room, out);
     row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
-    const mask is_near = smaller(f.distance, f.ahead) < splat(WEFT_CONTACT_MARGIN * settings.range);
+    const mask is_near =
+        smaller(f.distance, f.push.ahead) < splat(WEFT_CONTACT_MARGIN * settings.range);
     const mask bears = part.side * part.weight > splat(0.0f);
     const mask may_push = both(both(is_apart, pushes), both(is_near, bears));
     return add_entry(row, may_push, f, c, part, settings.range, out);

@@ -16,9 +16,9 @@
 // the energy falls. (The block c w_j^2 alone would be that of one vertex that moves while all
 // others stand still: from a snapshot it diverges.)
 
-// Friction needs no more than that. At the anchors the way r between the closest points is d n, so
-// what leads along the surface of r(s) = sum w_j s_j is how far the two have slid since, and with
-// what they had slid before (sticking.h) how far they have in all.
+// Friction needs no more than that. What leads along the surface of r(s) = sum w_j s_j, less what
+// did so at the anchors, is how far the two have slid since, and with what they had slid before how
+// far they have in all (sticking.h has both in one).
 
 #include "kernels/contact/energy.h"
 #include "kernels/contact/friction.h"

@@ -40,20 +40,27 @@ WEFT_INLINE real3 weighted_slip(WEFT_GLOBAL const float4* kept, int vertex_count
 }
 
 /// With which slips the contacts of a substep begin. Over all vertices, behind fill_contacts.
-/// slips  [entries] xyz, written: of this side along the other one [m]
+/// anchors  [vertices] xyz: where contacts were found [m]. Those of which the closest points are
+///          taken from where inertia leads have slid, as rows.h counts it, by that already; so that
+///          is taken off.
+/// slips    [entries] xyz, written: of this side along the other one [m]
 /// others as in keep_slips
-WEFT_NARROW_KERNEL(recall_slips, WEFT_GLOBAL const float4* kept, WEFT_GLOBAL const int* rows,
-                   WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
-                   WEFT_GLOBAL const int* corner1, WEFT_GLOBAL const int* corner2,
-                   WEFT_GLOBAL const int* corner3, WEFT_GLOBAL const float4* normals,
-                   WEFT_GLOBAL const float4* weights, WEFT_GLOBAL float4* slips, int vertex_count) {
+WEFT_NARROW_KERNEL(recall_slips, WEFT_GLOBAL const float4* anchors, WEFT_GLOBAL const float4* kept,
+                   WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* counts,
+                   WEFT_GLOBAL const int* corner0, WEFT_GLOBAL const int* corner1,
+                   WEFT_GLOBAL const int* corner2, WEFT_GLOBAL const int* corner3,
+                   WEFT_GLOBAL const float4* normals, WEFT_GLOBAL const float4* weights,
+                   WEFT_GLOBAL const float4* measures, WEFT_GLOBAL float4* slips,
+                   int vertex_count) {
     const whole start = load_whole(rows, i);
     const whole count = load_whole(counts, i);
     const int longest = largest_whole(count);
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
-        const real3 n = xyz(gather4(normals, entry));
+        const contact_entry there = load_contact(anchors, corner0, corner1, corner2, corner3,
+                                                 normals, weights, measures, entry);
+        const real3 n = there.normal;
         const real4 w = gather4(weights, entry);
         const integer c0 = address(gather_whole(corner0, entry));
         const integer c1 = address(gather_whole(corner1, entry));
@@ -63,7 +70,8 @@ WEFT_NARROW_KERNEL(recall_slips, WEFT_GLOBAL const float4* kept, WEFT_GLOBAL con
                                   weighted_slip(kept, vertex_count, c1, n, w.y)),
                               add(weighted_slip(kept, vertex_count, c2, n, w.z),
                                   weighted_slip(kept, vertex_count, c3, n, w.w)));
-        scatter4_where(on, slips, entry, with_w(along_surface(sum, n), splat(0.0f)));
+        scatter4_where(on, slips, entry,
+                       with_w(subtract(along_surface(sum, n), there.slip), splat(0.0f)));
     }
 }
 

@@ -203,7 +203,7 @@ void ContactResponse::make_fill() {
                               motion_.carried(), motion_.chunk_of(), motion_.fences(),
                               motion_.strays(), motion_.body_count(), motion_.chunk_count(),
                               kInstance));
-    if (sticking_) sticking_->add_recall(launches);
+    if (sticking_) sticking_->add_recall(launches, anchors_);
 }
 
 std::vector<const TaskBody*> ContactResponse::bodies() const {

@@ -10,11 +10,11 @@ Sticking::Sticking(Model& model, const ContactRows& rows, Rubbing rubbing)
       creep_(static_cast<float>(rubbing.creep)),
       kept_("contact.kept_slips", 3 * model.positions->count()) {}
 
-void Sticking::add_recall(std::vector<Launch>& launches) {
-    launches.push_back(launch(kernels::recall_slips, model_.vertices(), kept_, rows_.table.rows(),
-                              rows_.table.counts(), rows_.corner0, rows_.corner1, rows_.corner2,
-                              rows_.corner3, rows_.normals, rows_.weights, rows_.slips,
-                              model_.vertex_count()));
+void Sticking::add_recall(std::vector<Launch>& launches, Buffer<float4>& anchors) {
+    launches.push_back(launch(kernels::recall_slips, model_.vertices(), anchors, kept_,
+                              rows_.table.rows(), rows_.table.counts(), rows_.corner0,
+                              rows_.corner1, rows_.corner2, rows_.corner3, rows_.normals,
+                              rows_.weights, rows_.measures, rows_.slips, model_.vertex_count()));
 }
 
 void Sticking::add_recall_accesses(Step::Adding& task) {

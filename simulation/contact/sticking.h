@@ -15,7 +15,8 @@ public:
     Sticking(Model& model, const ContactRows& rows, Rubbing rubbing);
 
     /// Where a substep's contacts are known: with which slips they begin.
-    void add_recall(std::vector<Launch>& launches);
+    /// anchors  [vertices] where they were found; whoever launches it reads them all
+    void add_recall(std::vector<Launch>& launches, Buffer<float4>& anchors);
     void add_recall_accesses(Step::Adding& task);
     /// Behind all that moves vertices in a substep: what stays of them. Reads all positions, and
     /// rows.

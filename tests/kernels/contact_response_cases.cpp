@@ -182,10 +182,11 @@ void measure_case(KernelCase& c) {
 void recall_case(KernelCase& c) {
     Contacts contacts(c);
     auto& kept = add_points(c, "kept", 3 * c.items);
-    c.launch =
-        launch(kernels::recall_slips, c.segments, kept, contacts.rows.rows, contacts.rows.counts,
-               contacts.corner0, contacts.corner1, contacts.corner2, contacts.corner3,
-               contacts.normals, contacts.weights, contacts.slips, c.items);
+    auto& anchors = add_points(c, "anchors", c.items);
+    c.launch = launch(kernels::recall_slips, c.segments, anchors, kept, contacts.rows.rows,
+                      contacts.rows.counts, contacts.corner0, contacts.corner1, contacts.corner2,
+                      contacts.corner3, contacts.normals, contacts.weights, contacts.measures,
+                      contacts.slips, c.items);
 }
 
 void keep_case(KernelCase& c) {

@@ -42,9 +42,9 @@ public:
             add_entry(v, v, v - 1, 1.0f);
             if (positions_[at(v - 1)].w > 0.0f) add_entry(v - 1, v, v - 1, -1.0f);
         }
-        const Launch recall =
-            launch(kernels::recall_slips, Segments{}, kept_, table_.rows(), table_.counts(), c0_,
-                   c1_, c2_, c3_, normals_, weights_, slips_, count_);
+        const Launch recall = launch(kernels::recall_slips, Segments{}, positions_, kept_,
+                                     table_.rows(), table_.counts(), c0_, c1_, c2_, c3_, normals_,
+                                     weights_, measures_, slips_, count_);
         run_on_host(recall, recall.kernel->scalar, 0, count_);
     }
 

@@ -1,5 +1,5 @@
-// What friction does on a slope. The slope is a held sheet that lies level, and gravity leans. It
-// has two triangles: a finer one is a washboard.
+// What friction does on a slope, and what slides without any. The slope is a held sheet that lies
+// level, and gravity leans.
 
 #include <gtest/gtest.h>
 
@@ -105,6 +105,47 @@ TEST_P(Friction, NoneLetsSlideAndNoneDriftsOnTheLevel) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, Friction, testing::Values(Method::kVbd, Method::kNewton),
                          name_of_method);
+
+/// A patch of triangles that fit in nowhere with those below it, by more than a thickness per
+/// substep in the end.
+const std::string kFine = R"(
+[scene]
+frames = 1
+dt = 0.02
+substeps = 4
+[solver]
+iterations = 8
+[contact]
+thickness = 0.008
+[[cloth]]
+name = "slope"
+grid = { size = [2.4, 0.4], resolution = [97, 17] }
+density = 0.3
+stretch = { stiffness = 1e4 }
+pins = { box = [[-9, -9, -9], [9, 9, 9]] }
+[[cloth]]
+name = "patch"
+grid = { size = [0.19, 0.21], resolution = [8, 11] }
+rotate = [0, 1, 0, 29]
+translate = [-1.0, 0.0082, 0.003]
+density = 0.5
+membrane = { young = 1e6, poisson = 0.3, thickness = 1e-3 }
+bend = { stiffness = 1e-4 }
+)";
+
+class Slides : public EverySolver {};
+
+/// It was braked by a fifth, and lifted.
+TEST_P(Slides, OverMeshesAsOverAPlane) {
+    Scene scene = scene_of(kFine);
+    scene.gravity = {3.0, -9.4, 0.0};
+    Patch patch(scene);
+    patch.go(40);
+    EXPECT_NEAR(patch.velocity().x, 3.0 * 0.8, 0.02 * 3.0 * 0.8);
+    EXPECT_NEAR(patch.place().y, 0.008, 3e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Slides, kMethods, name_of_method);
 
 }  // namespace
 }  // namespace weft::test
