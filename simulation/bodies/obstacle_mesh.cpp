@@ -10,21 +10,9 @@
 #include "simulation/mesh/obj_reader.h"
 
 namespace weft {
+namespace {
 
-/// With frames, the start is the first of them.
-TriangleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warnings) {
-    TriangleMesh mesh = make_triangle_mesh(obstacle.shape, warnings);
-    if (std::holds_alternative<MeshFile>(obstacle.shape)) warn_of_odd_topology(mesh, warnings);
-    place(mesh.positions, obstacle.transform);
-    warn_of_missing_frames(obstacle, warnings);
-    auto frames = read_obstacle_frames(obstacle, mesh);
-    if (!frames.empty()) mesh.positions = std::move(frames.front());
-    check_areas(mesh);
-    return mesh;
-}
-
-std::vector<std::vector<Vec3>> read_obstacle_frames(const MeshObstacle& obstacle,
-                                                    const TriangleMesh& mesh) {
+std::vector<std::vector<Vec3>> read_frames(const MeshObstacle& obstacle, const TriangleMesh& mesh) {
     std::vector<std::vector<Vec3>> frames;
     for (const std::string& path : frame_files(obstacle)) {
         Warnings of_mesh;  // these have been said of the mesh itself
@@ -37,6 +25,21 @@ std::vector<std::vector<Vec3>> read_obstacle_frames(const MeshObstacle& obstacle
         frames.push_back(std::move(positions));
     }
     return frames;
+}
+
+}  // namespace
+
+/// With frames, the start is the first of them.
+ObstacleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warnings) {
+    ObstacleMesh built{make_triangle_mesh(obstacle.shape, warnings)};
+    TriangleMesh& mesh = built.mesh;
+    if (std::holds_alternative<MeshFile>(obstacle.shape)) warn_of_odd_topology(mesh, warnings);
+    place(mesh.positions, obstacle.transform);
+    warn_of_missing_frames(obstacle, warnings);
+    built.frames = read_frames(obstacle, mesh);
+    if (!built.frames.empty()) mesh.positions = built.frames.front();
+    check_areas(mesh);
+    return built;
 }
 
 }  // namespace weft

@@ -7,13 +7,15 @@
 
 namespace weft {
 
-/// The surface of an obstacle, placed in the world as it is at time 0. Throws UserError; adds to
-/// `warnings`.
-TriangleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warnings);
+/// The surface of an obstacle, placed in the world.
+struct ObstacleMesh {
+    TriangleMesh mesh;  ///< as it is at time 0
+    /// [frames][vertices] where motion.frames has its vertices; empty: it has none
+    std::vector<std::vector<Vec3>> frames{};
+};
 
-/// [frames][vertices] where its files have its vertices, placed in the world; empty: it has none.
-/// Throws UserError where one has another number of vertices than the mesh.
-std::vector<std::vector<Vec3>> read_obstacle_frames(const MeshObstacle& obstacle,
-                                                    const TriangleMesh& mesh);
+/// Throws UserError, also where a frame has another number of vertices than the mesh; adds to
+/// `warnings`.
+ObstacleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warnings);
 
 }  // namespace weft

@@ -94,7 +94,7 @@ void add_solid(Gathered& all, const Solid& solid, Warnings& warnings) {
 
 /// A surface that moves as it is told: vertices without mass, all held, and no element.
 void add_obstacle(Gathered& all, const MeshObstacle& obstacle, Warnings& warnings) {
-    const TriangleMesh mesh = build_obstacle_mesh(obstacle, warnings);
+    auto [mesh, frames] = build_obstacle_mesh(obstacle, warnings);
     const int first = static_cast<int>(all.rest.size());
     all.bodies.push_back({obstacle.name, "obstacle", first, mesh.vertex_count()});
     all.rest.insert(all.rest.end(), mesh.positions.begin(), mesh.positions.end());
@@ -106,7 +106,7 @@ void add_obstacle(Gathered& all, const MeshObstacle& obstacle, Warnings& warning
         for (const int v : t) all.obstacle_triangles.vertices.push_back(first + v);
     }
     MovingPins::Group group;
-    group.frames = read_obstacle_frames(obstacle, mesh);
+    group.frames = std::move(frames);
     group.frame_time = obstacle.frame_time;
     if (!obstacle.motion && group.frames.empty()) return;
     group.motion = obstacle.motion.value_or(Motion{});
