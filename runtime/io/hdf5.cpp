@@ -64,8 +64,13 @@ constexpr H5F_libver_t kFormat18 = H5F_LIBVER_EARLIEST;
 
 Handle scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose, "create a dataspace"}; }
 
-Handle open_dataset(hid_t parent, const std::string& name) {
-    return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset '" + name + "'"};
+/// Of the file that an object is in.
+std::string name_of_file(hid_t object) {
+    const ssize_t length = H5Fget_name(object, nullptr, 0);
+    if (length < 0) fail("read a file's name");
+    std::string name(static_cast<std::size_t>(length), '\0');
+    H5Fget_name(object, name.data(), name.size() + 1);
+    return name;
 }
 
 /// An attribute that is there already is of the same type: Weft's files change values only.
@@ -157,6 +162,11 @@ Handle open_to_read(const std::string& path) {
             "open"};
 }
 
+Handle open_whole(const std::string& path) {
+    const Handle access = file_access();
+    return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "open"};
+}
+
 Handle open_to_modify(const std::string& path) {
     const Handle access = file_access();
     return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, "open"};
@@ -174,6 +184,21 @@ void link_external(hid_t parent, const std::string& name, const std::string& pat
 
 bool exists(hid_t parent, const std::string& name) {
     return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> dataset_paths(hid_t file) {
+    std::vector<std::string> paths;
+    const auto note = [](hid_t, const char* name, const H5L_info_t* link, void* data) -> herr_t {
+        if (link->type != H5L_TYPE_HARD) return 0;
+        static_cast<std::vector<std::string>*>(data)->push_back(std::string("/") + name);
+        return 0;
+    };
+    check(H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, note, &paths), "list datasets");
+    std::erase_if(paths, [&](const std::string& path) {
+        const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "list datasets");
+        return H5Iget_type(object.id()) != H5I_DATASET;
+    });
+    return paths;
 }
 
 Handle string_type() {
@@ -341,6 +366,48 @@ void write_numbers(hid_t parent, const std::string& name, std::span<const double
 
 void write_number(hid_t parent, const std::string& name, double value) {
     write_numbers(parent, name, std::span<const double>(&value, 1));
+}
+
+Handle open_dataset(hid_t parent, const std::string& name) {
+    return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset '" + name + "'"};
+}
+
+std::vector<hsize_t> shape_of(hid_t dataset) {
+    const Handle space(H5Dget_space(dataset), H5Sclose, "read a dataset's shape");
+    std::vector<hsize_t> shape(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
+    check(H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr), "read a dataset's shape");
+    return shape;
+}
+
+hsize_t rows_per_chunk(hid_t dataset) {
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose, "read a dataset's layout");
+    if (H5Pget_layout(creation.id()) != H5D_CHUNKED) return 1;
+    std::vector<hsize_t> chunk(shape_of(dataset).size());
+    check(H5Pget_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data()),
+          "read a dataset's layout");
+    return chunk.front();
+}
+
+bool is_kept_elsewhere(hid_t dataset, hid_t file) {
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose, "read a dataset's layout");
+    return H5Pget_layout(creation.id()) == H5D_VIRTUAL ||
+           H5Pget_external_count(creation.id()) > 0 || name_of_file(dataset) != name_of_file(file);
+}
+
+void read_rows(hid_t dataset, hid_t memory_type, hsize_t begin, hsize_t count, void* values) {
+    constexpr const char* kWhat = "read rows of a dataset";
+    std::vector<hsize_t> size = shape_of(dataset);
+    if (size.empty()) throw Error(std::string(kWhat) + ": it is a single value");
+    std::vector<hsize_t> start(size.size(), 0);
+    start.front() = begin;
+    size.front() = count;
+    const Handle space(H5Dget_space(dataset), H5Sclose, kWhat);
+    check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(),
+                              nullptr),
+          kWhat);
+    const Handle memory(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+                        H5Sclose, kWhat);
+    check(H5Dread(dataset, memory_type, memory.id(), space.id(), H5P_DEFAULT, values), kWhat);
 }
 
 GrowingDataset::GrowingDataset(hid_t parent, const std::string& name, hid_t file_type,

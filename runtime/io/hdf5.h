@@ -90,12 +90,17 @@ Handle create_file(const std::string& path, FileFormat format, std::size_t chunk
 void publish(const std::string& path);
 /// Opens to read; also a file that is being written, or whose writer was killed (SWMR).
 Handle open_to_read(const std::string& path);
+/// Opens to read, and refuses a file that was cut off, or that someone has not written to its end:
+/// the library would give zeros for what is missing.
+Handle open_whole(const std::string& path);
 Handle open_to_modify(const std::string& path);
 
 Handle create_group(hid_t parent, const std::string& name);
 /// A link to the root of another file; a relative path counts from the folder of this one.
 void link_external(hid_t parent, const std::string& name, const std::string& path);
 bool exists(hid_t parent, const std::string& name);
+/// "/group/name" of all datasets of a file, but those that are only linked from another one.
+std::vector<std::string> dataset_paths(hid_t file);
 
 // Types and attributes ---------------------------------------------------------------------------
 
@@ -130,6 +135,16 @@ void write_numbers(hid_t parent, const std::string& name, std::span<const int> v
 void write_numbers(hid_t parent, const std::string& name, std::span<const double> values);
 /// One, as a list of it.
 void write_number(hid_t parent, const std::string& name, double value);
+
+Handle open_dataset(hid_t parent, const std::string& name);
+/// Empty for a single value.
+std::vector<hsize_t> shape_of(hid_t dataset);
+/// How many rows (of its first dimension) are stored, and unpacked, together.
+hsize_t rows_per_chunk(hid_t dataset);
+/// Whether its values, or some of them, are kept in another file than `file`, or may be.
+bool is_kept_elsewhere(hid_t dataset, hid_t file);
+/// `count` rows from row `begin` on, as `memory_type`.
+void read_rows(hid_t dataset, hid_t memory_type, hsize_t begin, hsize_t count, void* values);
 
 /// A dataset that grows along its first dimension.
 class GrowingDataset {

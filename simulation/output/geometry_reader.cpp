@@ -8,41 +8,15 @@
 
 namespace weft {
 
-namespace {
-
-/// Rows [begin, begin + count) of a dataset.
-void read_rows(hid_t dataset, hid_t type, hsize_t begin, hsize_t count, void* values) {
-    const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "reading a shape");
-    hsize_t shape[2] = {0, 1};
-    const int rank = H5Sget_simple_extent_ndims(space.id());
-    H5Sget_simple_extent_dims(space.id(), shape, nullptr);
-    const hsize_t start[2] = {begin, 0};
-    const hsize_t size[2] = {count, shape[1]};
-    hdf5::check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start, nullptr, size, nullptr),
-                "selecting rows");
-    const hdf5::Handle memory(H5Screate_simple(rank, size, nullptr), H5Sclose, "making a shape");
-    hdf5::check(H5Dread(dataset, type, memory.id(), space.id(), H5P_DEFAULT, values),
-                "reading rows");
-}
-
-hsize_t row_count(hid_t dataset) {
-    const hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "reading a shape");
-    hsize_t shape[2] = {0, 1};
-    H5Sget_simple_extent_dims(space.id(), shape, nullptr);
-    return shape[0];
-}
-
-}  // namespace
-
 class GeometryReader::Impl {
 public:
     explicit Impl(const std::filesystem::path& path) : path_(path.string()) {
         guarded([&] {
             file_ = hdf5::open_to_read(path_);
-            points_ = open_dataset("VTKHDF/Points");
+            points_ = hdf5::open_dataset(file_.id(), "VTKHDF/Points");
             long long vertices = 0;
-            read_rows(open_dataset("VTKHDF/NumberOfPoints").id(), H5T_NATIVE_LLONG, 0, 1,
-                      &vertices);
+            const hdf5::Handle counts = hdf5::open_dataset(file_.id(), "VTKHDF/NumberOfPoints");
+            hdf5::read_rows(counts.id(), H5T_NATIVE_LLONG, 0, 1, &vertices);
             vertex_count_ = static_cast<std::size_t>(vertices);
             read_times();
         });
@@ -53,26 +27,23 @@ public:
     std::vector<float> positions(std::size_t step) const {
         std::vector<float> positions(3 * vertex_count_);
         guarded([&] {
-            read_rows(points_.id(), H5T_NATIVE_FLOAT, step * vertex_count_, vertex_count_,
-                      positions.data());
+            hdf5::read_rows(points_.id(), H5T_NATIVE_FLOAT, step * vertex_count_, vertex_count_,
+                            positions.data());
         });
         return positions;
     }
 
 private:
-    hdf5::Handle open_dataset(const char* name) const {
-        return {H5Dopen2(file_.id(), name, H5P_DEFAULT), H5Dclose, std::string("opening ") + name};
-    }
-
     /// A run may have been killed after it counted a step, and before it wrote its time.
     void read_times() {
         const hdf5::Handle steps(H5Gopen2(file_.id(), "VTKHDF/Steps", H5P_DEFAULT), H5Gclose,
                                  "opening VTKHDF/Steps");
         const auto counted = static_cast<hsize_t>(hdf5::read_int_attribute(steps.id(), "NSteps"));
-        const hdf5::Handle values = open_dataset("VTKHDF/Steps/Values");
-        times_.resize(std::min(counted, row_count(values.id())));
+        const hdf5::Handle values = hdf5::open_dataset(file_.id(), "VTKHDF/Steps/Values");
+        const std::vector<hsize_t> written = hdf5::shape_of(values.id());
+        times_.resize(written.empty() ? 0 : std::min(counted, written.front()));
         if (times_.empty()) return;
-        read_rows(values.id(), H5T_NATIVE_DOUBLE, 0, times_.size(), times_.data());
+        hdf5::read_rows(values.id(), H5T_NATIVE_DOUBLE, 0, times_.size(), times_.data());
     }
 
     template <class Action>
