@@ -10,7 +10,7 @@ namespace weft {
 /// What a body's shape, its rest shape, or its motion comes from.
 struct BodyMesh {
     std::string body;   ///< "cloth.shirt", "cloth.shirt.rest", or "obstacle.body.frames"
-    std::string named;  ///< path of its file, or a sequence's pattern
+    std::string named;  ///< path of its file, with that of a dataset, or a sequence's pattern
     std::vector<std::string> files;  ///< that one, or a sequence's in their order
 };
 

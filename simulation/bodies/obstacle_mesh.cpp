@@ -4,6 +4,7 @@
 
 #include "runtime/error.h"
 #include "simulation/bodies/cloth_mesh.h"
+#include "simulation/bodies/dataset_frames.h"
 #include "simulation/bodies/frame_files.h"
 #include "simulation/bodies/selection.h"
 #include "simulation/mesh/mesh_checks.h"
@@ -13,6 +14,9 @@ namespace weft {
 namespace {
 
 std::vector<std::vector<Vec3>> read_frames(const MeshObstacle& obstacle, const TriangleMesh& mesh) {
+    if (const auto dataset = frame_dataset(obstacle)) {
+        return read_dataset_frames(obstacle, *dataset, mesh.positions.size());
+    }
     std::vector<std::vector<Vec3>> frames;
     for (const std::string& path : frame_files(obstacle)) {
         Warnings of_mesh;  // these have been said of the mesh itself
@@ -21,7 +25,6 @@ std::vector<std::vector<Vec3>> read_frames(const MeshObstacle& obstacle, const T
             throw UserError(fmt::format("{}: {} vertices, and obstacle '{}' has {}", path,
                                         positions.size(), obstacle.name, mesh.positions.size()));
         }
-        place(positions, obstacle.transform);
         frames.push_back(std::move(positions));
     }
     return frames;
@@ -37,6 +40,7 @@ ObstacleMesh build_obstacle_mesh(const MeshObstacle& obstacle, Warnings& warning
     place(mesh.positions, obstacle.transform);
     warn_of_missing_frames(obstacle, warnings);
     built.frames = read_frames(obstacle, mesh);
+    for (std::vector<Vec3>& frame : built.frames) place(frame, obstacle.transform);
     if (!built.frames.empty()) mesh.positions = built.frames.front();
     check_areas(mesh);
     return built;

@@ -13,13 +13,14 @@
 namespace weft {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, 22> kFormats{{
-    {".obj", "OBJ"},     {".msh", "Gmsh"},    {".vtk", "legacy VTK"}, {".vtu", "VTK XML"},
-    {".vtp", "VTK XML"}, {".ply", "PLY"},     {".stl", "STL"},        {".off", "OFF"},
-    {".gltf", "glTF"},   {".glb", "glTF"},    {".fbx", "FBX"},        {".dae", "Collada"},
-    {".abc", "Alembic"}, {".usd", "USD"},     {".usda", "USD"},       {".usdc", "USD"},
-    {".usdz", "USD"},    {".3ds", "3DS"},     {".blend", "Blender"},  {".zprj", "CLO"},
-    {".zpac", "CLO"},    {".node", "TetGen"},
+constexpr std::array<std::pair<const char*, const char*>, 25> kFormats{{
+    {".obj", "OBJ"},       {".msh", "Gmsh"},    {".vtk", "legacy VTK"}, {".vtu", "VTK XML"},
+    {".vtp", "VTK XML"},   {".ply", "PLY"},     {".stl", "STL"},        {".off", "OFF"},
+    {".gltf", "glTF"},     {".glb", "glTF"},    {".fbx", "FBX"},        {".dae", "Collada"},
+    {".abc", "Alembic"},   {".usd", "USD"},     {".usda", "USD"},       {".usdc", "USD"},
+    {".usdz", "USD"},      {".3ds", "3DS"},     {".blend", "Blender"},  {".zprj", "CLO"},
+    {".zpac", "CLO"},      {".node", "TetGen"}, {".h5", "HDF5"},        {".hdf5", "HDF5"},
+    {".vtkhdf", "VTKHDF"},
 }};
 
 }  // namespace

@@ -60,9 +60,11 @@ const TableKeys& motion_table() {
         {.name = "frames",
          .type = Type::kText,
          .help = "of a mesh obstacle, instead of all else: OBJ files of the same vertices, as in "
-                 "body_*.obj, relative to the scene file; the first is the start, linear between"},
+                 "body_*.obj, or an HDF5 file of points (frames, vertices, 3), as in body.h5 or "
+                 "body.h5:/path/of/dataset, relative to the scene file; the first is the start, "
+                 "linear between"},
         {.name = "frame_time",
-         .help = "time between two of these files; default: one frame of the scene",
+         .help = "time between two of these frames; default: one frame of the scene",
          .unit = "s",
          .range = positive_up_to(1e6)},
     }};

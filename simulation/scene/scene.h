@@ -215,8 +215,9 @@ struct MeshObstacle {
     Shape shape;       ///< a grid, a cylinder or an OBJ file
     Transform transform;
     std::optional<Motion> motion;
-    /// Instead of a motion: OBJ files of the same vertices, "body_*.obj"; empty: none. The n-th one
-    /// is where they are after n times frame_time, linear between, held behind the last.
+    /// Instead of a motion: OBJ files of the same vertices, "body_*.obj", or a dataset that has
+    /// them all, "body.h5:/points"; empty: none. The n-th frame is where they are after n times
+    /// frame_time, linear between, held behind the last.
     std::string frames;
     double frame_time = 0.0;  ///< [s], > 0
     std::string where;        ///< "file:line:column", for messages

@@ -207,11 +207,7 @@ def test_mesh_file(tmp_path):
     expect_error(weft("replay", trace), 2, "part.obj", "has changed since the run")
 
 
-def test_sequence_of_mesh_files(tmp_path):
-    """One hash stands for all of them, so a change of any is seen."""
-    for number in range(3):
-        (tmp_path / f"belt_{number}.obj").write_text(MESH.replace("v 1 0 1", f"v 1.{number} 0 1"))
-    scene = WIDE + """
+BELT = WIDE + """
 [contact]
 [[obstacle]]
 name = "belt"
@@ -220,17 +216,57 @@ mesh = "belt_0.obj"
 translate = [0.0, -1.0, 0.0]
 motion = { frames = "belt_*.obj" }
 """
-    trace = record(tmp_path, "--device", "cpu/1", scene=scene)
-    expect_equal(trace)
-    planned = weft("plan", trace, "--machines", "--out", tmp_path, "--device-counts", "2", "--waits",
+
+
+def expect_plannable(trace, folder):
+    """Also for other machines, which takes the scene, too."""
+    planned = weft("plan", trace, "--machines", "--out", folder, "--device-counts", "2", "--waits",
                    "1e-5", "--ratios", "1")
     assert planned.returncode == 0, planned.stderr
+
+
+def test_sequence_of_mesh_files(tmp_path):
+    """One hash stands for all of them, so a change of any is seen."""
+    for number in range(3):
+        (tmp_path / f"belt_{number}.obj").write_text(MESH.replace("v 1 0 1", f"v 1.{number} 0 1"))
+    trace = record(tmp_path, "--device", "cpu/1", scene=BELT)
+    expect_equal(trace)
+    expect_plannable(trace, tmp_path)
 
     (tmp_path / "belt_1.obj").write_text(MESH)
     expect_error(weft("replay", trace), 2, "belt_*.obj", "obstacle.belt.frames",
                  "has changed since the run, or is not one of these 3")
     (tmp_path / "belt_1.obj").unlink()
     expect_error(weft("replay", trace), 2, "is not one of these 2")
+
+
+def test_sequence_in_one_file(tmp_path):
+    run, elsewhere = tmp_path / "run", tmp_path / "elsewhere"
+    run.mkdir()
+    elsewhere.mkdir()
+    start = numpy.array([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]])
+    (run / "belt_0.obj").write_text(MESH)
+    with h5py.File(run / "belt.h5", "w") as file:
+        file["belt/points"] = numpy.stack([start + [0.1 * i, 0, 0] for i in range(3)])
+    trace = record(run, "--device", "cpu/1",
+                   scene=BELT.replace("belt_*.obj", "belt.h5:/belt/points"))
+    with h5py.File(trace) as file:
+        assert set(file["run/meshes"].attrs) == {"obstacle.belt", "obstacle.belt.frames"}
+    expect_equal(trace, cwd=elsewhere)
+    expect_plannable(trace, tmp_path)
+
+    for name in ["belt_0.obj", "belt.h5"]:
+        shutil.move(run / name, elsewhere)
+    expect_error(weft("replay", trace, "--scene", run / "scene.toml"), 2, "not there any more")
+    expect_equal(trace, "--scene", elsewhere / "scene.toml")
+    shutil.copy(elsewhere / "belt_0.obj", run)
+    expect_error(weft("replay", trace), 2, "belt.h5", "obstacle.belt.frames", "not there any more")
+
+    shutil.copy(elsewhere / "belt.h5", run)
+    with h5py.File(run / "belt.h5", "r+") as file:
+        file["belt/points"][1, 2, 0] += 0.01
+    expect_error(weft("replay", trace), 2, "belt.h5", "obstacle.belt.frames",
+                 "has changed since the run: its hash was")
 
 
 def test_bad_traces(tmp_path):

@@ -304,6 +304,29 @@ def test_other_mesh_cannot_go_on(folder):
     expect_error(run(folder, "--resume"), 2, "in: mesh of cloth.sheet; --force")
 
 
+def test_other_frames_of_an_obstacle_cannot_go_on(folder):
+    points = numpy.array([[0, 0, 0], [1, 0, 0], [0, 0, 1]]) - [0, 9, 0]
+    (folder / "part.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n")
+    (folder / "scene.toml").write_text(SCENE + """
+[contact]
+[[obstacle]]
+name = "body"
+shape = "mesh"
+mesh = "part.obj"
+motion = { frames = "part.h5" }
+""")
+    with h5py.File(folder / "part.h5", "w") as file:
+        file["points"] = numpy.stack([points + [0, 0, 0.01 * i] for i in range(FRAMES)])
+    interrupt(folder, signal.SIGINT, 3)
+    before = (folder / "part.h5").read_bytes()
+    with h5py.File(folder / "part.h5", "r+") as file:
+        file["points"][FRAMES - 1] += 1
+    expect_error(run(folder, "--resume"), 2, "in: mesh of obstacle.body.frames; --force")
+    (folder / "part.h5").write_bytes(before)
+    assert run(folder, "--resume").returncode == 0
+    expect_whole_run(folder)
+
+
 def test_finished_run_does_not_go_on(folder):
     assert run(folder, "--frames", "2").returncode == 0
     expect_error(run(folder, "--resume", "--frames", "2"), 2, "out/sheet", "finished run")
