@@ -12,14 +12,14 @@ namespace weft {
 /// a correction a few edges per iteration and begin anew in each substep, so a long chain of short
 /// edges stretches whatever its material is.
 struct LoadPath {
-    std::string body;      ///< the lightest one on it
-    double levels = 0.0;   ///< edges from the farthest vertex to the nearest held one; of a body
-                           ///< that nothing holds, half of its own, as if it hung over an obstacle
-    double edge = 0.0;     ///< mean length [m]
-    double slender = 1.0;  ///< how many times as long as it is thick, of a solid that pins hold
-    double burden = 1.0;   ///< the mass of all bodies that are tied together, over the lightest's
+    std::string body;     ///< the lightest one on it
+    double levels = 0.0;  ///< edges from the farthest vertex to the nearest held one; of a body
+                          ///< that nothing holds, half of its own, as if it hung over an obstacle
+    double edge = 0.0;    ///< mean length [m]
+    double burden = 1.0;  ///< the mass of all bodies that are tied together, over the lightest's
     bool is_solid = false;
     bool is_held = false;  ///< by pins
+    double slender = 1.0;  ///< how many times as long as it is thick, of a solid that pins hold
 };
 
 /// One per connected part with an edge.

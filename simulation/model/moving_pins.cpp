@@ -81,6 +81,8 @@ void MovingPins::add_placed(std::vector<BufferStorage*>& buffers) {
 }
 
 std::optional<Vec3> MovingPins::common_velocity(double time, double h, int substeps) const {
+    const auto follows = [](const Group& group) { return !group.frames.empty(); };
+    if (std::ranges::any_of(groups_, follows)) return std::nullopt;
     constexpr double kSame = 1e-6;  // of both, in single precision
     const auto place = [&](const Group& group, int substep) {
         return group.motion.displacement(time + substep * h);

@@ -27,7 +27,7 @@ public:
     /// Fills in the frame that begins at `time` and has substeps of h [s].
     void place(double time, double h);
     /// The velocity of all pins, if they all have the same in all `substeps` of h [s] from `time`
-    /// on [m/s].
+    /// on [m/s]; not known of those that have frames.
     std::optional<Vec3> common_velocity(double time, double h, int substeps) const;
     /// How many vertices move.
     std::size_t count() const;

@@ -76,6 +76,26 @@ TEST(LoadPaths, TiedBodiesBurdenTheLightest) {
     EXPECT_NEAR(paths[0].burden, 8.4 / 0.4, 1e-9);
 }
 
+/// 1 m from its pins on, by edges of 0.1 m and diagonals; its volume is its surface times 0.0238 m.
+TEST(LoadPaths, OfSolidsThatPinsHoldMayBeSlender) {
+    const std::string beam = R"(
+[scene]
+frames = 1
+dt = 0.02
+[[solid]]
+grid = { size = [1.0, 0.1, 0.1], resolution = [11, 2, 2] }
+density = 20.0
+young = 1.0e6
+poisson = 0.3
+)";
+    const auto held = paths_of(beam + "pins = { faces = [\"x-\"] }\n");
+    ASSERT_EQ(held.size(), 1U);
+    EXPECT_NEAR(held[0].slender, held[0].levels * held[0].edge / (4.0 * 0.01 / 0.42), 1e-6);
+    EXPECT_GT(held[0].slender, 10.0);
+    EXPECT_EQ(paths_of(beam)[0].slender, 1.0);
+    EXPECT_EQ(paths_of(kSheet + kPins)[0].slender, 1.0);
+}
+
 TEST(LoadPaths, StrainGrowsWithTheSquareOfTheStepAndFallsWithIterations) {
     const LoadPath path{"sheet", 20.0, 0.1, 1.0, false, true};
     const double strain = unfinished_strain(path, 0.01, 4, 10.0);

@@ -220,6 +220,14 @@ TEST_F(FramesOfAnObstacle, AreReachedAndThenHeld) {
     EXPECT_EQ(positions_after(scene(""), "opencl:0/1", 2), one);
 }
 
+/// What they hit takes up their speed, which is no energy from nowhere: nobody may take the
+/// obstacle for one that stands because it has no velocity of its own.
+TEST_F(FramesOfAnObstacle, HaveNoVelocityThatIsTheSameForAll) {
+    Warnings warnings;
+    const Model led(parse_scene(scene(""), "s.toml"), warnings);
+    EXPECT_FALSE(led.moving_pins->common_velocity(0.0, led.h, 3).has_value());
+}
+
 TEST_F(FramesOfAnObstacle, MustHaveTheSameVertices) {
     write(1, 4);
     EXPECT_NE(message_of(scene("")).find("body_1.obj: 4 vertices, and obstacle 'body' has 3"),
