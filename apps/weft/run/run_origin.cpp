@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include "runtime/io/cache_folder.h"
-#include "simulation/bodies/mesh_files.h"
 #include "simulation/run_description.h"
 #include "simulation/solver/async_iterates.h"
 
@@ -42,11 +41,9 @@ TextPairs request_parts(const RunOptions& options, const Scene& scene) {
 
 /// With the meshes, once it is known that they can be read, and what a checkpoint's positions count
 /// from.
-TextPairs run_origin(TextPairs request, const RunOptions& options, const Scene& scene,
+TextPairs run_origin(TextPairs request, const RunOptions& options, const TextPairs& meshes,
                      const Simulation& simulation) {
-    for (const BodyMesh& mesh : mesh_files(scene)) {
-        request.emplace_back("mesh of " + mesh.body, mesh_hash(mesh));
-    }
+    for (const auto& [body, hash] : meshes) request.emplace_back("mesh of " + body, hash);
     request.emplace_back("place that positions count from", origin_setting(simulation.model()));
     add_async(simulation, options, request);
     return request;

@@ -9,9 +9,10 @@ namespace weft {
 /// read, before a solver was chosen for it. The number of frames may differ.
 TextPairs request_parts(const RunOptions& options, const Scene& scene);
 
-/// All that the results depend on: a run goes on only from a checkpoint of the same. request: as
-/// above. Throws UserError where a mesh cannot be read.
-TextPairs run_origin(TextPairs request, const RunOptions& options, const Scene& scene,
+/// All that the results depend on: a run goes on only from a checkpoint of the same.
+/// request  as above
+/// meshes   their hashes, as in the run's description
+TextPairs run_origin(TextPairs request, const RunOptions& options, const TextPairs& meshes,
                      const Simulation& simulation);
 
 }  // namespace weft

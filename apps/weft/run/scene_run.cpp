@@ -42,8 +42,8 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     if (!options.no_geometry) check_geometry_states(scene_, options.scene);
     settle_solver();
     set_up();
-    origin_ = run_origin(std::move(origin_), options_, scene_, *simulation_);
     RunDescription description = describe();
+    origin_ = run_origin(std::move(origin_), options_, description.meshes, *simulation_);
     if (options_.resume) find_earlier(description);
     if (!earlier_) warn_of_other_scene();
     description.warnings = all_warnings();
