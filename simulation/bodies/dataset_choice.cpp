@@ -113,6 +113,24 @@ private:
     std::size_t vertex_count_;
 };
 
+/// The library would name the folder in which it looked for one.
+void check_filters(const MeshObstacle& obstacle, const Candidate& found) {
+    const hdf5::Handle creation(H5Dget_create_plist(found.dataset.id()), H5Pclose,
+                                "read a dataset's layout");
+    const int count = H5Pget_nfilters(creation.id());
+    for (int i = 0; i < count; ++i) {
+        char name[64] = "";
+        std::size_t no_values = 0;
+        const H5Z_filter_t filter =
+            H5Pget_filter2(creation.id(), static_cast<unsigned>(i), nullptr, &no_values, nullptr,
+                           sizeof(name), name, nullptr);
+        if (H5Zfilter_avail(filter) > 0) continue;
+        refuse_frames(obstacle, fmt::format("'{}' is packed by the filter '{}' ({}), which is not "
+                                            "installed here; gzip and shuffle are",
+                                            found.path, name, filter));
+    }
+}
+
 /// A replay compares the file's bytes, and values that were never written are read as zeros.
 void check_kept(const MeshObstacle& obstacle, const Candidate& found, const hdf5::Handle& file) {
     if (hdf5::is_kept_elsewhere(found.dataset.id(), file.id())) {
@@ -120,11 +138,22 @@ void check_kept(const MeshObstacle& obstacle, const Candidate& found, const hdf5
                                             "whose changes a replay would not see; copy them",
                                             found.path));
     }
+    check_filters(obstacle, found);
     if (H5Dget_storage_size(found.dataset.id()) > 0) return;
     refuse_frames(obstacle, words(found) + " has no values: nobody has written them");
 }
 
 }  // namespace
+
+hdf5::Handle open_points(const MeshObstacle& obstacle, const hdf5::Handle& file,
+                         const std::string& path) {
+    Candidate found = candidate(path, hdf5::open_dataset(file.id(), path));
+    if (found.type != H5T_FLOAT || found.shape.size() != 2 || found.shape[1] != 3) {
+        refuse_frames(obstacle, words(found) + "; expected (points, 3) of floats");
+    }
+    check_kept(obstacle, found, file);
+    return std::move(found.dataset);
+}
 
 ChosenDataset choose_dataset(const MeshObstacle& obstacle, const FrameDataset& source,
                              const hdf5::Handle& file, std::size_t vertex_count) {

@@ -19,4 +19,10 @@ struct ChosenDataset {
 ChosenDataset choose_dataset(const MeshObstacle& obstacle, const FrameDataset& source,
                              const hdf5::Handle& file, std::size_t vertex_count);
 
+constexpr const char* kVtkhdfPoints = "/VTKHDF/Points";
+
+/// The floats (points, 3) of that path, of all frames one behind the other. Likewise.
+hdf5::Handle open_points(const MeshObstacle& obstacle, const hdf5::Handle& file,
+                         const std::string& path);
+
 }  // namespace weft

@@ -8,6 +8,7 @@
 
 #include "runtime/io/hdf5.h"
 #include "simulation/bodies/dataset_choice.h"
+#include "simulation/bodies/vtkhdf_frames.h"
 #include "simulation/mesh/mesh_text.h"
 
 namespace weft {
@@ -30,14 +31,14 @@ bool is_place(Vec3 p) {
     return is_near(p.x) && is_near(p.y) && is_near(p.z);
 }
 
-void check_places(const MeshObstacle& obstacle, const ChosenDataset& chosen, const Frames& frames) {
+void check_places(const MeshObstacle& obstacle, const std::string& path, const Frames& frames) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
         const auto wrong = std::ranges::find_if_not(frames[f], is_place);
         if (wrong == frames[f].end()) continue;
-        refuse_frames(obstacle,
-                      fmt::format("'{}'[{}, {}] = ({}, {}, {}): must be finite and within {} m",
-                                  chosen.path, f, wrong - frames[f].begin(), wrong->x, wrong->y,
-                                  wrong->z, kMaxCoordinate));
+        refuse_frames(
+            obstacle,
+            fmt::format("'{}'[{}, {}] = ({}, {}, {}): must be finite and within {} m", path, f,
+                        wrong - frames[f].begin(), wrong->x, wrong->y, wrong->z, kMaxCoordinate));
     }
 }
 
@@ -68,9 +69,14 @@ std::vector<std::vector<Vec3>> read_dataset_frames(const MeshObstacle& obstacle,
     const hdf5::Session session;
     try {
         const hdf5::Handle file = hdf5::open_whole(source.file);
+        if (source.path.empty() && is_vtkhdf(file)) {
+            Frames frames = read_vtkhdf_frames(obstacle, file, vertex_count);
+            check_places(obstacle, kVtkhdfPoints, frames);
+            return frames;
+        }
         const ChosenDataset chosen = choose_dataset(obstacle, source, file, vertex_count);
         Frames frames = read_all(chosen, vertex_count);
-        check_places(obstacle, chosen, frames);
+        check_places(obstacle, chosen.path, frames);
         return frames;
     } catch (const hdf5::Error& error) {
         refuse_frames(obstacle, fmt::format("cannot read it as HDF5: {}", error.what()));

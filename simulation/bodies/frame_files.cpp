@@ -75,7 +75,7 @@ fs::path folder_of(const MeshObstacle& obstacle) {
 std::size_t end_of_hdf5_name(const std::string& frames) {
     std::string lower = frames;
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    constexpr std::array<std::string_view, 2> kEndings{".h5", ".hdf5"};
+    constexpr std::array<std::string_view, 3> kEndings{".h5", ".hdf5", ".vtkhdf"};
     for (const std::string_view ending : kEndings) {
         const std::size_t at = lower.find(std::string(ending) + ':');
         if (at != std::string::npos) return at + ending.size();

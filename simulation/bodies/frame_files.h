@@ -15,7 +15,7 @@ struct FrameDataset {
     std::string path;  ///< in the file; empty: the only one of the right shape
 };
 
-/// By the file's ending, .h5 or .hdf5; it may not be there.
+/// By the file's ending, .h5, .hdf5 or .vtkhdf; it may not be there.
 std::optional<FrameDataset> frame_dataset(const MeshObstacle& obstacle);
 
 /// The files of an obstacle's frames (motion.frames): that of its dataset, or those that fit the

@@ -128,6 +128,11 @@ def unwritten(folder):
         file.create_dataset("p", (10**12, 4, 3), "f4", chunks=(100, 4, 3))
 
 
+def unknown_filter(folder):
+    with h5py.File(other(folder), "w") as file:
+        file.create_dataset("p", data=POINTS, compression="lzf")
+
+
 def changed(value):
     points = POINTS.copy()
     points[2, 1, 0] = value
@@ -170,6 +175,7 @@ MISTAKES = {
     "far": ("other.h5", with_points(changed(1e30)), ["= (1e+30, ", "within 1000000 m"]),
     "external": ("other.h5:/p", external, ["'/p' takes its values from other", "copy them"]),
     "virtual": ("other.h5", virtual, ["'/p' takes its values from other", "copy them"]),
+    "filter": ("other.h5", unknown_filter, ["packed by the filter 'lzf'", "gzip and shuffle are"]),
     "unwritten": ("other.h5", unwritten, ["has no values"]),
 }
 
@@ -185,6 +191,56 @@ def test_mistakes(folder, name):
     assert len(result.stderr.splitlines()) == 1
     assert not (folder / "out").exists()
     expect_error(weft("inspect", "scene.toml", cwd=folder), 2, *parts)
+
+
+def simulated(folder, text):
+    """The geometry of a run of that scene."""
+    (folder / "first.toml").write_text(text)
+    weft_json("run", "first.toml", "--device", "cpu/1", "--quiet", "--out", "first", cwd=folder)
+    return folder / "first/frames.vtkhdf"
+
+
+def test_are_as_another_run_moved(folder):
+    """Steps that are there but not counted do not count."""
+    grid = "grid = { size = [1.0, 1.0], resolution = [12, 12] }"
+    geometry = simulated(folder, SHEET.replace(grid, 'mesh = "body.obj"') + "pins = { vertices = [0] }\n")
+    with h5py.File(geometry) as file:
+        points = file["VTKHDF/Points"][:].reshape(4, 4, 3)
+    assert len(numpy.unique(points[:, 3, 1])) == 4
+    for steps in [4, 2]:
+        with h5py.File(geometry, "r+") as file:
+            file["VTKHDF/Steps"].attrs.modify("NSteps", numpy.int32(steps))
+        write(other(folder), points=points[:steps])
+        assert hash_of(folder, "first/frames.vtkhdf") == hash_of(folder, "other.h5")
+
+
+def test_other_runs_that_do_not_fit(folder):
+    geometry = simulated(folder, SHEET)
+    expect_error(run(folder, "first/frames.vtkhdf"), 2, "first/frames.vtkhdf",
+                 "the bodies in it have 144 vertices in step 0, and obstacle 'body' has 4")
+
+    def expect_broken(change, *parts):
+        shutil.copy(geometry, other(folder))
+        with h5py.File(other(folder), "r+") as file:
+            file["VTKHDF/NumberOfPoints"][0] = 4
+            change(file["VTKHDF"])
+        expect_error(run(folder, "other.h5"), 2, 'motion.frames = "other.h5": ', *parts)
+
+    def put(name, value):
+        def change(root):
+            root[name][1] = value
+        return change
+
+    expect_broken(lambda root: root.pop("Steps"), "nothing in it moves")
+    expect_broken(lambda root: root.pop("Points"), "open dataset '/VTKHDF/Points'")
+    expect_broken(lambda root: root["Steps"].attrs.modify("NSteps", numpy.int32(0)), "no step yet")
+    expect_broken(lambda root: root["Steps"].attrs.modify("NSteps", numpy.int32(9)), "read rows")
+    for bad in [7, -1]:
+        expect_broken(put("Steps/PartOffsets", bad), "step 1 is in several parts, or in none")
+    expect_broken(put("Steps/NumberOfParts", 2), "step 1 is in several parts, or in none")
+    for bad in [1 << 40, -4]:
+        expect_broken(put("Steps/PointOffsets", bad), "read rows")
+    expect_broken(put("Points", numpy.nan), "'/VTKHDF/Points'[0, 1] = (nan, ")
 
 
 def test_long_lists_are_cut(folder):
