@@ -377,7 +377,6 @@ Solid read_solid(const Node& table, const std::string& scene_path) {
 
 MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene) {
     MeshObstacle obstacle;
-    obstacle.where = table.mark.text();
     int shapes = 0;
     for (const char* key : {"mesh", "grid", "cylinder"}) shapes += table.find(key) ? 1 : 0;
     if (shapes != 1) {
@@ -399,6 +398,7 @@ MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene) {
         if (motion->find(key)) throw value_error(*motion, key, "cannot stand beside frames");
     }
     obstacle.frames = mesh_path(*motion, scene.path, "frames");
+    obstacle.where = motion->find("frames")->mark.text();
     obstacle.frame_time = optional_number(*motion, "frame_time").value_or(scene.dt);
     return obstacle;
 }

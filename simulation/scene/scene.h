@@ -220,7 +220,7 @@ struct MeshObstacle {
     /// frame_time, linear between, held behind the last.
     std::string frames;
     double frame_time = 0.0;  ///< [s], > 0
-    std::string where;        ///< "file:line:column", for messages
+    std::string where;        ///< "file:line:column" of its frames, for messages
 };
 
 /// [contact]: bodies touch each other, and themselves.

@@ -187,7 +187,7 @@ def test_mistakes(folder, name):
     if make is not None:
         make(folder)
     result = run(folder, frames)
-    expect_error(result, 2, "scene.toml:20:1: ", f'motion.frames = "{frames}": ', *parts)
+    expect_error(result, 2, "scene.toml:27:21: ", f'motion.frames = "{frames}": ', *parts)
     assert len(result.stderr.splitlines()) == 1
     assert not (folder / "out").exists()
     expect_error(weft("inspect", "scene.toml", cwd=folder), 2, *parts)
