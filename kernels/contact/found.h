@@ -119,8 +119,12 @@ WEFT_INLINE whole is_led_past(contact_pair found, contact_pair led, closest_poin
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
     const real length = square_root(then.square);
-    const real sides = side_of(found, is_edges) * side_of(led, is_edges);
-    const whole past = sides > splat(0.0f) ? (length > splat(0.5f) * near ? one : none) : none;
+    // Not their product: that of small volumes is zero.
+    const real side = side_of(found, is_edges);
+    const real led_side = side_of(led, is_edges);
+    const real zero = splat(0.0f);
+    const real alike = larger(smaller(side, led_side), -larger(side, led_side));
+    const whole past = alike > zero ? (length > splat(0.5f) * near ? one : none) : none;
     return dot3(then.way, normal) > splat(0.25f) * length ? one : past;
 }
 

@@ -135,7 +135,7 @@ bend = { stiffness = 1e-4 }
 
 class Slides : public EverySolver {};
 
-/// It was braked by a fifth, and lifted.
+/// It was braked by up to a third, and lifted.
 TEST_P(Slides, OverMeshesAsOverAPlane) {
     Scene scene = scene_of(kFine);
     scene.gravity = {3.0, -9.4, 0.0};
