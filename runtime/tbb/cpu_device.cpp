@@ -176,13 +176,17 @@ public:
             for (const Launch& launch : body->launches) bound.launches.emplace_back(launch, lanes);
             bodies_.push_back(std::move(bound));
         }
-        worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
+        worker_ = std::thread([this] { work(); });  // Apple's libc++ lacks std::jthread
     }
 
     /// Whoever still waits for jobs that will not run (a device failed in mid-submission) must not
     /// wait for ever.
     ~CpuStream() override {
-        worker_.request_stop();
+        {
+            const std::lock_guard lock(mutex_);
+            stopping_ = true;
+        }
+        changed_.notify_all();
         worker_.join();
         for (; finished_ < jobs_.size(); ++finished_) jobs_[finished_].completion.set_done();
     }
@@ -253,16 +257,12 @@ private:
         throw Misuse("task body '" + body->name + "' is not part of this stream");
     }
 
-    void work(const std::stop_token& stop) {
+    void work() {
         pin_thread(cores_);
-        const std::stop_callback wake(stop, [this] {
-            const std::lock_guard lock(mutex_);
-            changed_.notify_all();
-        });
         std::unique_lock lock(mutex_);
         while (true) {
-            changed_.wait(lock, [&] { return stop.stop_requested() || finished_ < released_; });
-            if (stop.stop_requested()) return;
+            changed_.wait(lock, [this] { return stopping_ || finished_ < released_; });
+            if (stopping_) return;
             Job& job = jobs_[finished_];
             lock.unlock();
             run(job);
@@ -308,7 +308,8 @@ private:
     std::size_t finished_ = 0;
     std::vector<TaskTime> times_;
     std::exception_ptr failure_;
-    std::jthread worker_;
+    bool stopping_ = false;
+    std::thread worker_;
 };
 
 int lanes_in_use(int wanted) {

@@ -10,6 +10,7 @@
 #include "runtime/error.h"
 #include "runtime/executor.h"
 #include "runtime/tbb/cpu_device.h"
+#include "tests/joining_thread.h"
 #include "tests/runtime/random_tasks.h"
 
 namespace weft::test {
@@ -56,7 +57,7 @@ public:
     }
     void flush() override {
         stop();
-        running_ = std::jthread([this, count = completions_.size()] {
+        running_ = JoiningThread([this, count = completions_.size()] {
             std::this_thread::sleep_for(std::chrono::microseconds(500));
             for (std::size_t i = 0; i < count; ++i) completions_[i].set_done();
         });
@@ -80,7 +81,7 @@ private:
 
     When when_;
     std::deque<LateCompletion> completions_;
-    std::jthread running_;
+    JoiningThread running_;
 };
 
 class FailingDevice final : public Device {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/cores.h"
+#include "tests/joining_thread.h"
 
 namespace weft::test {
 namespace {
@@ -98,7 +99,7 @@ TEST(ThreadsAtWork, AreCountedByWhatTheyDo) {
     const auto again = thread_times();
     std::latch done(3);
     std::latch read(1);
-    std::vector<std::jthread> threads;
+    std::vector<JoiningThread> threads;
     for (int i = 0; i < 3; ++i) {
         threads.emplace_back([&] {
             work(0.05);

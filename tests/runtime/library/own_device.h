@@ -3,9 +3,9 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
-#include <thread>
 
 #include "runtime/clock.h"
+#include "tests/joining_thread.h"
 #include "weft/device.h"
 #include "weft/error.h"
 
@@ -71,7 +71,7 @@ private:
         /// A thread for all there is so far, since other devices may wait for it.
         void flush() override {
             stop();
-            worker_ = std::jthread([this, end = jobs_.size()] {
+            worker_ = JoiningThread([this, end = jobs_.size()] {
                 for (; done_ < end; ++done_) run(jobs_[done_]);
             });
         }
@@ -115,7 +115,7 @@ private:
         std::deque<Job> jobs_;
         std::size_t done_ = 0;
         std::vector<TaskTime> times_;
-        std::jthread worker_;
+        JoiningThread worker_;
     };
 
     int left_;

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <thread>
+
+#include "tests/joining_thread.h"
 
 namespace weft::test {
 namespace {
@@ -103,7 +104,7 @@ TEST_F(SavedCostsTest, RunsThatEndTogetherLoseNothing) {
     std::vector<TaskBody> bodies;
     for (int i = 0; i < kRuns; ++i) bodies.push_back({"kind " + std::to_string(i), 0, {}});
     {
-        std::vector<std::jthread> runs;
+        std::vector<JoiningThread> runs;
         for (const TaskBody& body : bodies) {
             runs.emplace_back([&] {
                 const std::vector<const TaskBody*> own{&body};
