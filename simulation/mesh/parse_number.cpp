@@ -1,42 +1,54 @@
 #include "simulation/mesh/parse_number.h"
 
-#include <charconv>
-#include <limits>
-#include <version>
-
-#if !defined(__cpp_lib_to_chars)
-#include <locale>
-#include <sstream>
-#include <string>
+#include <locale.h>
+#include <stdlib.h>
+#ifdef __APPLE__
+#include <xlocale.h>
 #endif
 
+#include <charconv>
+#include <limits>
+#include <string>
+#include <version>
+
 namespace weft {
-#if defined(__cpp_lib_to_chars)
+namespace {
+
+/// The word without a plus; nothing where another sign follows.
+std::string_view without_plus(std::string_view word) {
+    if (!word.starts_with('+')) return word;
+    word.remove_prefix(1);
+    return word.starts_with('-') ? std::string_view() : word;
+}
+
+}  // namespace
 
 std::optional<double> parse_number(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
+#if defined(__cpp_lib_to_chars)
+    word = without_plus(word);
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || error == std::errc::invalid_argument) return {};
     if (error == std::errc{}) return value;
     const bool is_small = word.find("e-") != word.npos || word.find("E-") != word.npos;
     return is_small ? 0.0 : std::numeric_limits<double>::infinity();
-}
-
-#else  // libc++ has had std::from_chars for double only since version 20
-
-std::optional<double> parse_number(std::string_view word) {
-    for (const char* odd : {"nan", "-nan", "inf", "-inf", "NaN", "Inf", "-Inf"}) {
-        if (word == odd) return std::numeric_limits<double>::quiet_NaN();
-    }
-    std::istringstream stream{std::string(word)};
-    stream.imbue(std::locale::classic());
-    double value = 0.0;
-    stream >> value;
-    if (word.empty() || stream.bad() || stream.peek() != std::istringstream::traits_type::eof())
-        return {};
-    return value;  // out of range: the stream has set the largest double, or 0
-}
-
+#else
+    return parse_number_by_strtod(word);
 #endif
+}
+
+std::optional<double> parse_number_by_strtod(std::string_view word) {
+    // strtod takes more than from_chars does: blanks before a number, and hexadecimal ones.
+    constexpr const char* kFirst = "-.0123456789iInN";
+    word = without_plus(word);
+    if (word.empty() || std::string_view(kFirst).find(word.front()) == word.npos) return {};
+    if (word.find_first_of("xX") != word.npos) return {};
+    static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+    const std::string text(word);
+    char* end = nullptr;
+    const double value = ::strtod_l(text.c_str(), &end, plain);
+    if (end != text.c_str() + text.size()) return {};
+    return value;
+}
+
 }  // namespace weft
