@@ -134,14 +134,14 @@ std::vector<std::string> elements_of(const std::string& list) {
 
 /// How many of the cores OpenCL may take at most, as the list says it: no driver is asked yet.
 int most_opencl_units(const Team& parts, int cores) {
-    int opencl = 0;
-    int cpu = 0;
+    long long opencl = 0;  // what is asked for may be any number, and so may the sum
+    long long cpu = 0;
     bool all_numbered = true;
     for (const Part& part : parts) {
         (part.is_cpu ? cpu : opencl) += part.is_cpu ? std::max(part.units, 1) : part.units;
         all_numbered = all_numbered && (part.is_cpu || part.units > 0);
     }
-    return std::clamp(all_numbered ? opencl : cores - cpu, 1, cores);
+    return static_cast<int>(std::clamp<long long>(all_numbered ? opencl : cores - cpu, 1, cores));
 }
 
 bool is_all_tbb(const Team& parts) {
@@ -219,8 +219,8 @@ bool is_cpu_device(const Part& part) {
 
 /// Gives parts without a number theirs, and checks that the cores suffice.
 void share_cores(std::vector<Part>& parts, int cores) {
-    int asked = 0;
-    int open = 0;
+    long long asked = 0;
+    long long open = 0;
     for (const Part& part : parts) {
         if (!is_cpu_device(part)) continue;
         asked += part.units;
@@ -234,7 +234,7 @@ void share_cores(std::vector<Part>& parts, int cores) {
     }
     for (Part& part : parts) {
         if (part.units != 0 || !is_cpu_device(part)) continue;
-        part.units = (cores - asked) / open;
+        part.units = static_cast<int>((cores - asked) / open);
         if (!part.is_cpu) {  // a driver may show fewer units than there are cores
             const auto index = static_cast<std::size_t>(part.index);
             part.units = std::min(part.units, opencl_devices()[index].units);

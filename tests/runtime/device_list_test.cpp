@@ -59,6 +59,8 @@ TEST(DeviceList, EveryMistakeIsAnErrorThatNamesIt) {
         {"opencl:99", "'opencl:99'"},
         {"opencl:0/1000", "1000"},
         {"cpu/1000", "1000 cores"},
+        {"cpu/2147483647+cpu/2147483647", "4294967294 cores"},
+        {"cpu/1+cpu/2147483647+cpu", "2147483649 cores"},
     };
     for (const Bad& b : bad) {
         const std::string message = error_of(b.list);
