@@ -19,16 +19,26 @@ namespace weft {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Empty counts as not set, as the XDG specification has it.
+const char* folder_named_by(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value == nullptr || *value == '\0' ? nullptr : value;
+}
+
+}  // namespace
+
 fs::path cache_folder() {
-    if (const char* own = std::getenv("WEFT_CACHE_DIR")) return own;
-    if (const char* xdg = std::getenv("XDG_CACHE_HOME")) return fs::path(xdg) / "weft";
-    if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "weft";
+    if (const char* own = folder_named_by("WEFT_CACHE_DIR")) return own;
+    if (const char* xdg = folder_named_by("XDG_CACHE_HOME")) return fs::path(xdg) / "weft";
+    if (const char* home = folder_named_by("HOME")) return fs::path(home) / ".cache" / "weft";
     return {};
 }
 
 std::string cache_folder_trouble() {
-    const char* own = std::getenv("WEFT_CACHE_DIR");
-    if (own == nullptr || *own == '\0') return "";
+    const char* own = folder_named_by("WEFT_CACHE_DIR");
+    if (own == nullptr) return "";
     std::error_code error;
     fs::create_directories(own, error);
     if (!error && ::access(own, W_OK | X_OK) != 0) error = {errno, std::generic_category()};

@@ -8,7 +8,7 @@
 namespace weft {
 
 /// Where things are kept that can be made again: $WEFT_CACHE_DIR, else weft below $XDG_CACHE_HOME
-/// or ~/.cache. Empty where there is no place for it.
+/// or ~/.cache. Variables that are empty count as not set. Empty where there is no place for it.
 std::filesystem::path cache_folder();
 
 /// Why $WEFT_CACHE_DIR cannot serve as one, for a warning; empty: it can, or it is not set. Makes

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/joining_thread.h"
 
 namespace weft::test {
 namespace {
@@ -20,6 +25,55 @@ protected:
     fs::path file_ = folder_ / "below" / "file";
 };
 
+/// The variables that name the folder, as they were again when it is over.
+class CacheFolderTest : public testing::Test {
+protected:
+    CacheFolderTest() {
+        for (const char* name : kNames) {
+            const char* value = std::getenv(name);
+            before_.push_back(value == nullptr ? std::nullopt : std::optional<std::string>(value));
+        }
+    }
+    ~CacheFolderTest() override { set(before_[0], before_[1], before_[2]); }
+
+    using Value = std::optional<std::string>;
+    static void set(const Value& own, const Value& xdg, const Value& home) {
+        const Value* const values[] = {&own, &xdg, &home};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (*values[i])
+                ::setenv(kNames[i], (*values[i])->c_str(), 1);
+            else
+                ::unsetenv(kNames[i]);
+        }
+    }
+
+private:
+    static constexpr const char* kNames[] = {"WEFT_CACHE_DIR", "XDG_CACHE_HOME", "HOME"};
+    std::vector<Value> before_;
+};
+
+TEST_F(CacheFolderTest, IsTheFirstThatIsNamed) {
+    set("/own", "/xdg", "/home/me");
+    EXPECT_EQ(cache_folder(), "/own");
+    set({}, "/xdg", "/home/me");
+    EXPECT_EQ(cache_folder(), "/xdg/weft");
+    set({}, {}, "/home/me");
+    EXPECT_EQ(cache_folder(), "/home/me/.cache/weft");
+    set({}, {}, {});
+    EXPECT_EQ(cache_folder(), "");
+}
+
+/// A relative folder would be another one wherever the program is called.
+TEST_F(CacheFolderTest, AnEmptyVariableIsAsGoodAsNone) {
+    set("", "/xdg", "/home/me");
+    EXPECT_EQ(cache_folder(), "/xdg/weft");
+    EXPECT_EQ(cache_folder_trouble(), "");
+    set("", "", "/home/me");
+    EXPECT_EQ(cache_folder(), "/home/me/.cache/weft");
+    set("", "", "");
+    EXPECT_EQ(cache_folder(), "");
+}
+
 TEST_F(CacheTest, GivesBackWhatWasWritten) {
     EXPECT_EQ(read_cached(file_), "");
     write_cached(file_, "one");
@@ -32,7 +86,7 @@ TEST_F(CacheTest, IsWholeWhoeverElseWrites) {
     constexpr std::size_t kBytes = 1 << 18;
     std::atomic<int> writing = 8;
     {
-        std::vector<std::jthread> writers;
+        std::vector<JoiningThread> writers;
         for (char letter = 'a'; letter < 'a' + 8; ++letter) {
             writers.emplace_back([&, letter] {
                 for (int i = 0; i < 20; ++i) write_cached(file_, std::string(kBytes, letter));
@@ -59,7 +113,7 @@ TEST_F(CacheTest, OneAtATimeHasTheLock) {
     // lost.
     std::atomic<int> count = 0;
     {
-        std::vector<std::jthread> threads;
+        std::vector<JoiningThread> threads;
         for (int t = 0; t < 8; ++t) {
             threads.emplace_back([&] {
                 for (int i = 0; i < 100; ++i) {
