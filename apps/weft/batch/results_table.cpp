@@ -43,6 +43,12 @@ Value member(const Value& object, const std::string& key) {
     return object.contains(key) ? object[key] : Value(nullptr);
 }
 
+/// By what became of it: --plan auto may take such a plan, and --plan async may have one device.
+bool is_asynchronous(const Value& summary) {
+    const Value settings = member(summary, "settings");
+    return settings.is_object() && settings.contains("async");
+}
+
 std::string device_names(const Value& summary) {
     std::vector<std::string> names;
     if (!summary.contains("devices") || !summary["devices"].is_array()) return "";
@@ -133,7 +139,7 @@ ResultsTable results_table(const std::filesystem::path& folder, const std::vecto
     for (const Listed& listed : runs) {
         summaries.push_back(RunFolder(run_path(folder, *listed.run)).read_summary());
     }
-    ResultsTable table{columns_of(runs, summaries), {}};
+    ResultsTable table{columns_of(runs, summaries), {}, {}};
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto cells = cells_of(runs[i], summaries[i]);
         std::vector<Value> row;
@@ -142,6 +148,7 @@ ResultsTable results_table(const std::filesystem::path& folder, const std::vecto
             row.push_back(cell == cells.end() ? Value(nullptr) : cell->second);
         }
         table.rows.push_back(std::move(row));
+        table.is_async.push_back(is_asynchronous(summaries[i]));
     }
     return table;
 }
@@ -160,6 +167,7 @@ std::vector<std::string> hash_differences(const ResultsTable& table,
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const Value& hash = table.rows[i][at];
         if (runs[i].status.state != State::kFinished || !hash.is_string()) continue;
+        if (table.is_async[i]) continue;
         groups[origin_of(*runs[i].run)][hash.get<std::string>()].push_back(runs[i].run->index);
     }
     std::vector<std::string> notes;

@@ -76,13 +76,17 @@ void write_json(const std::filesystem::path& folder, const nlohmann::ordered_jso
     write_output(folder / "compare.json", json_text(json) + '\n');
 }
 
+/// Asynchronous plans have results of their own.
 void warn_of_different_states(const Comparison& comparison) {
+    const ComparisonRow* first = nullptr;
     for (const ComparisonRow& row : comparison.rows) {
-        if (row.state_hash == comparison.rows.front().state_hash) continue;
+        if (row.is_async) continue;
+        if (first == nullptr) first = &row;
+        if (row.state_hash == first->state_hash) continue;
         std::cerr << fmt::format(
             "weft: warning: {} ended in another state than {} (only --math fast, or a device that "
             "cannot round correctly, explains that)\n",
-            row.devices, comparison.rows.front().devices);
+            row.devices, first->devices);
     }
 }
 

@@ -12,6 +12,7 @@
 #include "apps/weft/studies/trajectory_reference.h"
 #include "apps/weft/studies/whole_run.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 
 namespace weft {
 
@@ -161,8 +162,8 @@ TrajectoryStudy study_trajectories(const ErrorOptions& options) {
                 TrajectoryCurve curve{solver, devices, plan, {}, {}};
                 const std::string answer =
                     in_child_process(fmt::format("{} on {}", solver, devices), [&] {
-                        return to_json(measure(options, run, reference.trajectory, scene.frames))
-                            .dump();
+                        return json_text(
+                            to_json(measure(options, run, reference.trajectory, scene.frames)), -1);
                     });
                 add_measured(curve, nlohmann::json::parse(answer));
                 study.curves.push_back(std::move(curve));

@@ -55,6 +55,7 @@ ComparisonRow make_row(const std::string& devices, const std::vector<FrameSample
     row.utilisation = quantile(frames, &FrameSample::utilisation, 0.5);
     row.energy = end.energy;
     row.state_hash = end.hash;
+    row.is_async = end.is_async;
     row.warnings = end.warnings;
     return row;
 }

@@ -21,6 +21,7 @@ struct ComparisonRow {
     double utilisation = 0.0;
     double energy = 0.0;  ///< at the end [J]
     std::string state_hash;
+    bool is_async = false;  ///< the state depends on how the devices share the work
     Warnings warnings;
 };
 

@@ -11,9 +11,11 @@
 #include "apps/weft/output/warnings.h"
 #include "apps/weft/process/answer.h"
 #include "runtime/error.h"
+#include "runtime/io/json_text.h"
 #include "runtime/io/system_call.h"
 #include "simulation/diagnostics.h"
 #include "simulation/simulation.h"
+#include "simulation/solver/async_iterates.h"
 
 namespace weft {
 
@@ -64,6 +66,11 @@ struct Served {
     Warnings warnings;
 };
 
+/// Whatever --plan says: one device has nobody to tell.
+bool is_asynchronous(const Simulation& simulation) {
+    return dynamic_cast<const AsyncIterates*>(&simulation.solver()) != nullptr;
+}
+
 std::string end_line(const Served& served) {
     Warnings warnings = served.warnings;
     const Simulation& simulation = *served.simulation;
@@ -71,10 +78,11 @@ std::string end_line(const Served& served) {
         warnings.push_back(text_of(lost, simulation));
     }
     for (const Trouble& trouble : simulation.troubles()) warnings.push_back(text_of(trouble));
-    return nlohmann::json{{"hash", simulation.hash()},
-                          {"energy", simulation.energies().total()},
-                          {"warnings", warnings}}
-        .dump();
+    const nlohmann::json end{{"hash", simulation.hash()},
+                             {"is_async", is_asynchronous(simulation)},
+                             {"energy", simulation.energies().total()},
+                             {"warnings", warnings}};
+    return json_text(end, -1);
 }
 
 std::string reply(char command, Served& served) {
@@ -138,7 +146,7 @@ std::string FrameWorker::ask(char command) {
 void FrameWorker::wait_until_ready() { ask(kReady); }
 EndState FrameWorker::end_state() {
     const auto state = nlohmann::json::parse(ask(kState));
-    return {state["hash"], state["energy"], state["warnings"]};
+    return {state["hash"], state["is_async"], state["energy"], state["warnings"]};
 }
 
 FrameSample FrameWorker::advance() {

@@ -22,8 +22,9 @@ struct FrameSample {
 
 struct EndState {
     std::string hash;
-    double energy = 0.0;  ///< [J]
-    Warnings warnings;    ///< what `weft run` would have warned of, or stopped at
+    bool is_async = false;  ///< the state depends on how the devices share the work
+    double energy = 0.0;    ///< [J]
+    Warnings warnings;      ///< what `weft run` would have warned of, or stopped at
 };
 
 /// A simulation in a process of its own, which does one frame whenever it is told to. In between it
