@@ -1,14 +1,17 @@
 """A sweep on one machine: what is made, what is done, what is collected."""
 
+import ast
 import json
 import os
+import shlex
+import shutil
 import subprocess
 
 import h5py
 import pytest
 from sweeps import SHEET, SWEEP, batch, folder, hash_of, long_folder, make, results, run_folder
 from sweeps import states, wait_for_checkpoint
-from weft_program import TOUCHING, WEFT, start_weft, weft, weft_json
+from weft_program import CORES, TOUCHING, WEFT, start_weft, weft, weft_json
 
 
 def test_from_a_sweep_to_its_results(folder):
@@ -130,6 +133,16 @@ def test_says_where_hashes_differ(folder):
     assert "several results" in batch(folder, "sweep.toml", "--collect").stderr
 
 
+@pytest.mark.skipif(CORES < 2, reason="needs two devices")
+def test_asynchronous_results_are_no_differences(folder):
+    """They depend on the cuts, by design."""
+    make(folder, SWEEP.replace('"cpu/1"', '"cpu/1+cpu/1"').replace("[1e3, 1e4]", "[1e4]")
+         .replace('"auto", "single"', '"exact", "async"'))
+    assert batch(folder, "sweep.toml", "--index", "all", "--quiet").returncode == 0
+    assert hash_of(folder, 0) != hash_of(folder, 1)
+    assert "several results" not in batch(folder, "sweep.toml", "--collect").stderr
+
+
 @pytest.mark.parametrize("engine, parts", [
     ("slurm", ["#SBATCH --array=0-3", "scontrol requeue"]),
     ("parallel", ["--termseq", "--commands"]),
@@ -144,6 +157,34 @@ def test_scripts(folder, engine, parts):
         assert part in result.stdout
     if engine != "snakemake":
         assert subprocess.run(["bash", "-n"], input=result.stdout, text=True).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["my sweep", "my 'sweep'", 'a "b" $c'])
+def test_scripts_name_any_folder(folder, name):
+    """The shell's words stay out of Python's strings, and Python's out of the shell's."""
+    made = batch(folder, "sweep.toml", "--out", f"out/{name}")
+    assert made.returncode == 0, made.stderr
+    snakefile = batch(folder, f"out/{name}", "--script", "snakemake").stdout
+    named = [line for line in snakefile.splitlines() if line.startswith("FOLDER = ")]
+    assert [ast.literal_eval(line.partition(" = ")[2]) for line in named] == [f"out/{name}"]
+    assert f"out/{name}/" not in snakefile and snakefile.count("{FOLDER:q}") == 2
+
+    queue = batch(folder, f"out/{name}", "--script", "hyperqueue").stdout
+    command = shlex.split(queue.replace("\\\n", ""), comments=True)
+    assert command[-3:-1] == ["bash", "-c"]
+    assert shlex.split(command[-1])[:4] == ["exec", "weft", "batch", f"out/{name}"]
+
+
+@pytest.mark.skipif(shutil.which("snakemake") is None, reason="needs snakemake")
+def test_snakemake_runs_a_folder_with_blanks(folder):
+    assert batch(folder, "sweep.toml", "--out", "out/my 'sweep'").returncode == 0
+    script = batch(folder, "out/my 'sweep'", "--script", "snakemake").stdout
+    (folder / "Snakefile").write_text(script)
+    path = f"{os.path.dirname(WEFT)}:{os.environ['PATH']}"
+    ran = subprocess.run(["snakemake", "--cores", "1"], cwd=folder, capture_output=True, text=True,
+                         env={**os.environ, "PATH": path})
+    assert ran.returncode == 0, ran.stderr
+    assert (folder / "out/my 'sweep'/results.csv").exists()
 
 
 def test_the_program_is_named(folder):

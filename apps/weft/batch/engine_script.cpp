@@ -6,6 +6,7 @@
 
 #include "apps/weft/batch/index_list.h"
 #include "apps/weft/batch/listing.h"
+#include "runtime/io/json_text.h"
 
 namespace weft::batch {
 
@@ -13,6 +14,8 @@ namespace {
 
 struct Words {
     std::string name, folder, ranges, list;
+    std::string quoted;  ///< the folder, as Python writes it
+    std::string task;    ///< of HyperQueue, for bash -c
 };
 
 constexpr const char* kSlurm = R"script(#!/bin/bash
@@ -51,27 +54,29 @@ weft batch {folder} --collect
 constexpr const char* kHyperQueue = R"script(#!/bin/bash
 # The sweep {name} by HyperQueue (hq server start, hq worker start):
 hq submit --name {name} --array {ranges} --pin taskset --cpus 1 \
-  bash -c 'exec weft batch {folder} --index "$HQ_TASK_ID"'
+  bash -c {task}
 )script";
 
 constexpr const char* kSnakemake =
     R"script(# The sweep {name} by Snakemake: snakemake --snakefile Snakefile --cores all --keep-going
+FOLDER = {quoted}
 RUNS = {list}
 
 rule all:
-    input: expand("{folder}/done/{{index}}", index=RUNS)
-    shell: "weft batch {folder} --collect"
+    input: expand(FOLDER + "/done/{{index}}", index=RUNS)
+    shell: "weft batch {{FOLDER:q}} --collect"
 
 rule run:
-    output: touch("{folder}/done/{{index}}")
+    output: touch(FOLDER + "/done/{{index}}")
     retries: 3
-    shell: "weft batch {folder} --index {{wildcards.index}}"
+    shell: "weft batch {{FOLDER:q}} --index {{wildcards.index}}"
 )script";
 
 std::string filled(const char* form, const Words& words) {
     return fmt::format(fmt::runtime(form), fmt::arg("name", words.name),
                        fmt::arg("folder", words.folder), fmt::arg("ranges", words.ranges),
-                       fmt::arg("list", words.list));
+                       fmt::arg("list", words.list), fmt::arg("quoted", words.quoted),
+                       fmt::arg("task", words.task));
 }
 
 /// For job names, which take no blanks.
@@ -89,8 +94,13 @@ const std::vector<std::string>& engines() {
 
 std::string script_for(const std::string& engine, const Manifest& manifest,
                        const std::filesystem::path& folder) {
-    const Words words{job_name(manifest.name), shell_word(folder.string()),
-                      to_ranges(manifest.current()), to_python(manifest.current())};
+    const std::string word = shell_word(folder.string());
+    const Words words{job_name(manifest.name),
+                      word,
+                      to_ranges(manifest.current()),
+                      to_python(manifest.current()),
+                      json_text(Value(folder.string()), -1),  // JSON's strings are Python's, too
+                      shell_word(fmt::format("exec weft batch {} --index \"$HQ_TASK_ID\"", word))};
     if (engine == "slurm") return filled(kSlurm, words);
     if (engine == "parallel") return filled(kParallel, words);
     if (engine == "hyperqueue") return filled(kHyperQueue, words);
