@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 namespace {

@@ -7,8 +7,8 @@
 #include <array>
 #include <filesystem>
 
+#include "runtime/near_miss.h"
 #include "simulation/scene/elements/element_keys.h"
-#include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/read_motion.h"
 #include "simulation/scene/resolution.h"

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "runtime/near_miss.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/scene/keys.h"
-#include "simulation/scene/near_miss.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/obstacle_shapes.h"
 #include "simulation/scene/overrides.h"

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "runtime/error.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 namespace {

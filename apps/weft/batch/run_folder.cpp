@@ -16,7 +16,7 @@
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
 #include "runtime/io/whole_file.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft::batch {
 

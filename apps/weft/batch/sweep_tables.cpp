@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "runtime/error.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft::batch {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 namespace {

@@ -21,7 +21,6 @@
 #include "apps/weft/studies/sweep_text.h"
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
-#include "simulation/scene/near_miss.h"
 
 namespace weft {
 

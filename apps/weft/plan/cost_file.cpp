@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "apps/weft/plan/json_file.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "apps/weft/plan/json_file.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 namespace {

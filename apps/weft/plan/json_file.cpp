@@ -13,7 +13,7 @@
 
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft {
 

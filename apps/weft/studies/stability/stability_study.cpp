@@ -4,7 +4,7 @@
 
 #include "apps/weft/studies/sweep_text.h"
 #include "runtime/error.h"
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 namespace weft::stability {
 

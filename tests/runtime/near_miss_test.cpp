@@ -1,4 +1,4 @@
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 #include <gtest/gtest.h>
 

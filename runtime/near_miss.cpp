@@ -1,11 +1,8 @@
-#include "simulation/scene/near_miss.h"
+#include "runtime/near_miss.h"
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace weft {
 namespace {
@@ -48,12 +45,17 @@ std::string near_miss(std::string_view word, const std::vector<std::string>& can
         best_distance = distance;
         best = &candidate;
     }
-    return best ? fmt::format("did you mean '{}'?", *best) : "";
+    return best ? "did you mean '" + *best + "'?" : "";
 }
 
 std::string near_miss_or_list(std::string_view word, const std::vector<std::string>& candidates) {
     const std::string near = near_miss(word, candidates);
-    return near.empty() ? fmt::format("known: {}", fmt::join(candidates, ", ")) : near;
+    if (!near.empty()) return near;
+    std::string known = "known: ";
+    for (const std::string& candidate : candidates) {
+        known += (&candidate == candidates.data() ? "" : ", ") + candidate;
+    }
+    return known;
 }
 
 }  // namespace weft
