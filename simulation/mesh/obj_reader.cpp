@@ -114,14 +114,20 @@ private:
         int texture;  ///< -1: none
     };
 
-    /// The index that `text` begins with, from 0; none where it is none, or names nothing so far.
-    static std::optional<int> parse_index(std::string_view text, std::size_t known) {
-        std::int64_t index = 0;
+    /// The number that `text` begins with, up to a slash or its end; none where it is none.
+    static std::optional<std::int64_t> parse_integer(std::string_view text) {
+        std::int64_t number = 0;
         const char* const last = text.data() + text.size();
-        const auto [end, error] = std::from_chars(text.data(), last, index);
+        const auto [end, error] = std::from_chars(text.data(), last, number);
+        if (error != std::errc{} || (end != last && *end != '/')) return std::nullopt;
+        return number;
+    }
+
+    /// An index from 0, for one that counts from 1, or from -1 backwards; none where it names
+    /// nothing so far.
+    static std::optional<int> from_zero(std::int64_t index, std::size_t known) {
         const auto count = static_cast<std::int64_t>(known);
-        const bool well_formed = error == std::errc{} && (end == last || *end == '/');
-        if (!well_formed || index == 0 || index > kMaxIndex || index < -count) return std::nullopt;
+        if (index == 0 || index > kMaxIndex || index < -count) return std::nullopt;
         return static_cast<int>(index > 0 ? index - 1 : count + index);
     }
 
@@ -130,7 +136,8 @@ private:
         Corner corner{parse_vertex_index(word), -1};
         const std::size_t slash = word.find('/');
         if (slash == word.npos || slash + 1 == word.size() || word[slash + 1] == '/') return corner;
-        const auto texture = parse_index(word.substr(slash + 1), mesh_.texture.size());
+        const auto index = parse_integer(word.substr(slash + 1));
+        const auto texture = index ? from_zero(*index, mesh_.texture.size()) : std::nullopt;
         if (texture)
             corner.texture = *texture;
         else
@@ -139,19 +146,16 @@ private:
     }
 
     int parse_vertex_index(std::string_view word) const {
-        std::int64_t index = 0;
-        const char* const last = word.data() + word.size();
-        const auto [end, error] = std::from_chars(word.data(), last, index);
-        const bool well_formed = error == std::errc{} && (end == last || *end == '/');
-        if (!well_formed) fail(fmt::format("{}: expected a vertex index", quoted(word)));
-        const auto count = static_cast<std::int64_t>(mesh_.positions.size());
-        if (index == 0 || index > kMaxIndex || index < -count) {
+        const auto index = parse_integer(word);
+        if (!index) fail(fmt::format("{}: expected a vertex index", quoted(word)));
+        const auto vertex = from_zero(*index, mesh_.positions.size());
+        if (!vertex) {
             fail(
                 fmt::format("vertex index {} is out of range: {} vertices so far, counted from 1 "
                             "(or from -1 backwards)",
-                            index, count));
+                            *index, mesh_.positions.size()));
         }
-        return static_cast<int>(index > 0 ? index - 1 : count + index);
+        return *vertex;
     }
 
     void parse_face(std::string_view rest) {

@@ -5,8 +5,7 @@
 
 #include <array>
 
-#include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5_file.h"
 #include "simulation/output/point_column.h"
 
 namespace weft {
@@ -45,31 +44,22 @@ void write_curves(hid_t parent, const ErrorStudy& study) {
     }
 }
 
-void write_study(const std::string& path, const ErrorStudy& study) {
-    const hdf5::Session session;
-    hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
-    hdf5::write_text_attribute(file.id(), "format", "weft-error");
-    hdf5::write_text_attribute(file.id(), "scene", study.scene);
-    hdf5::write_text_attribute(file.id(), "energies",
+void write_study(hid_t file, const ErrorStudy& study) {
+    hdf5::write_text_attribute(file, "scene", study.scene);
+    hdf5::write_text_attribute(file, "energies",
                                fmt::format("{}", fmt::join(study.energies, "\n")));
-    hdf5::write_text_attribute(file.id(), "notes", fmt::format("{}", fmt::join(study.notes, "\n")));
+    hdf5::write_text_attribute(file, "notes", fmt::format("{}", fmt::join(study.notes, "\n")));
     const std::array<int, 1> frame = {study.frame};
-    hdf5::write_int_attribute(file.id(), "frame", frame);
+    hdf5::write_int_attribute(file, "frame", frame);
 
-    write_reference(file.id(), study);
-    write_curves(file.id(), study);
-    file.close("close the file");
+    write_reference(file, study);
+    write_curves(file, study);
 }
 
 }  // namespace
 
 void write_error_file(const std::filesystem::path& path, const ErrorStudy& study) {
-    try {
-        write_study(path.string(), study);
-        hdf5::publish(path.string());
-    } catch (const hdf5::Error& error) {
-        throw RunError(path.string() + ": " + error.what());
-    }
+    write_hdf5_file(path, "weft-error", [&](hid_t file) { write_study(file, study); });
 }
 
 }  // namespace weft

@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5_file.h"
 #include "simulation/output/point_column.h"
 
 namespace weft {
@@ -46,28 +45,19 @@ void write_curves(hid_t parent, const TrajectoryStudy& study) {
     }
 }
 
-void write_study(const std::string& path, const TrajectoryStudy& study) {
-    const hdf5::Session session;
-    hdf5::Handle file = hdf5::create_file(path, hdf5::FileFormat::kPlain);
-    hdf5::write_text_attribute(file.id(), "format", "weft-trajectory");
-    hdf5::write_text_attribute(file.id(), "scene", study.scene);
+void write_study(hid_t file, const TrajectoryStudy& study) {
+    hdf5::write_text_attribute(file, "scene", study.scene);
     const std::array<int, 1> frames = {study.frames};
-    hdf5::write_int_attribute(file.id(), "frames", frames);
+    hdf5::write_int_attribute(file, "frames", frames);
 
-    write_reference(file.id(), study);
-    write_curves(file.id(), study);
-    file.close("close the file");
+    write_reference(file, study);
+    write_curves(file, study);
 }
 
 }  // namespace
 
 void write_trajectory_file(const std::filesystem::path& path, const TrajectoryStudy& study) {
-    try {
-        write_study(path.string(), study);
-        hdf5::publish(path.string());
-    } catch (const hdf5::Error& error) {
-        throw RunError(path.string() + ": " + error.what());
-    }
+    write_hdf5_file(path, "weft-trajectory", [&](hid_t file) { write_study(file, study); });
 }
 
 }  // namespace weft

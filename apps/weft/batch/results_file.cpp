@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "apps/weft/batch/drive.h"
-#include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5_file.h"
 
 namespace weft::batch {
 
@@ -57,18 +56,11 @@ void write_links(hid_t file, const fs::path& folder, const std::vector<Listed>& 
 
 void write_results_file(const fs::path& path, const ResultsTable& table, const fs::path& folder,
                         const std::vector<Listed>& runs) {
-    const hdf5::Session session;
-    try {
-        hdf5::Handle file = hdf5::create_file(path.string(), hdf5::FileFormat::kPlain);
-        hdf5::write_text_attribute(file.id(), "format", "weft-batch-results");
-        hdf5::write_int_attribute(file.id(), "format_version", std::vector{1});
-        write_columns(file.id(), table);
-        write_links(file.id(), folder, runs);
-        file.close("close the file");
-        hdf5::publish(path.string());
-    } catch (const hdf5::Error& error) {
-        throw RunError(path.string() + ": " + error.what());
-    }
+    write_hdf5_file(path, "weft-batch-results", [&](hid_t file) {
+        hdf5::write_int_attribute(file, "format_version", std::vector{1});
+        write_columns(file, table);
+        write_links(file, folder, runs);
+    });
 }
 
 }  // namespace weft::batch
