@@ -1,8 +1,8 @@
 #ifndef WEFT_KERNELS_PLATFORM_H
 #define WEFT_KERNELS_PLATFORM_H
 
-// The language layer: with lanes.h, its second part, the only file that asks which compiler is
-// reading it.
+// The language layer: with lanes.h, its second part, and with in_order.h and members.h, which build
+// on it, the only files that ask which compiler is reading them.
 //
 // A kernel is written once, on the words below, and becomes
 //   OpenCL C 1.2, one item or 8 items per work-item     platform/opencl.h

@@ -156,9 +156,13 @@ typedef struct {
     real reach;         ///< how far a vertex of one that is quiet by itself may get [m]; else 0
 } patch_look;
 
-/// asked   1 for patches to look at, 0 for those of which nobody needs to know
-/// rim, rim_count   their vertices in `rims`
-/// others  as in tilt_patches
+/// do_foresee           0: nothing counts but how far vertices may get
+/// corners, face_count  [3 * face_count] column-major: model vertices
+/// rim, rim_count       the patches' vertices in `rims`
+/// is_slow              patches whose vertices cannot get as far as `limit`
+/// limit                how far vertices may get, for a patch to be quiet [m]
+/// asked                1 for patches to look at, 0 for those of which nobody needs to know
+/// What is not named here is as in tilt_patches.
 WEFT_INLINE patch_look look_at_patches(WEFT_GLOBAL const float4* anchors,
                                        WEFT_GLOBAL const float4* goals, int do_foresee,
                                        WEFT_GLOBAL const int* face_begin,

@@ -15,8 +15,10 @@ WEFT_INLINE membrane membrane_of(triangle_entry t, WEFT_GLOBAL const float* mate
 }
 
 /// Adds the membranes' part of each vertex' gradient and Hessian block. Parameters as in
-/// gather_springs, and others, shape  as in load_triangle() material       [2 * entries]
-/// column-major: mu, lambda, times the rest area [J]
+/// gather_springs, and
+///
+/// others, shape  as in load_triangle()
+/// material       [2 * entries] column-major: mu, lambda, times the rest area [J]
 WEFT_KERNEL(gather_membranes, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* vertices,
             WEFT_GLOBAL const int* slices, WEFT_GLOBAL const int* others,
             WEFT_GLOBAL const float* shape, WEFT_GLOBAL const float* material,

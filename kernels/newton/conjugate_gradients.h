@@ -101,8 +101,9 @@ WEFT_KERNEL(finish_product, WEFT_GLOBAL const float4* positions,
 }
 
 /// Adds up the columns of a strip. Items are strips.
-/// columns   [2 * WEFT_DOT_COLUMNS * strips] strip by strip those of gamma, then those of delta
-/// partials  [2 * strips] written: gamma of all strips, then delta
+/// columns         [2 * WEFT_DOT_COLUMNS * strips] by strip: those of gamma, then of delta
+/// first           [strips] where a strip's columns begin
+/// gammas, deltas  [strips] written: the sums
 WEFT_KERNEL(add_dot_columns, WEFT_GLOBAL const float* columns, WEFT_GLOBAL const int* first,
             WEFT_GLOBAL float* gammas, WEFT_GLOBAL float* deltas) {
     // One strip after the other: their columns lie apart.

@@ -13,8 +13,11 @@ typedef struct {
 
 /// The changes of both multipliers: (G + A) d = -(C + A lambda), where G = grad C M^-1 grad C^T and
 /// A the diagonal matrix of both compliances, divided by h^2. One after the other, each constraint
-/// would undo what the other one needs; together, an element at rest stays at rest. g_11, g_12,
-/// g_22  G, positive semi-definite a_1, a_2          A, positive r_1, r_2          C + A lambda
+/// would undo what the other one needs; together, an element at rest stays at rest.
+///
+/// g_11, g_12, g_22  G, positive semi-definite
+/// a_1, a_2          A, positive
+/// r_1, r_2          C + A lambda
 WEFT_INLINE real_pair solve_pair(real g_11, real g_12, real g_22, real a_1, real a_2, real r_1,
                                  real r_2) {
     // Written out and clamped, det(G + A) is positive whatever the rounding of det G.
