@@ -323,14 +323,15 @@ void Executor::on(std::size_t device, Call call) {
     guard([&] { return static_cast<int>(device); }, call);
 }
 
-/// Whatever fails, the streams are left idle. device: that is lost by an error of its own.
-template <class Device, class Call>
-void Executor::guard(Device device, Call call) {
+/// Whatever fails, the streams are left idle. device_of(): the one that is lost by an error of its
+/// own.
+template <class DeviceOf, class Call>
+void Executor::guard(DeviceOf device_of, Call call) {
     try {
         call();
     } catch (const RunError& error) {
         drain();
-        throw DeviceLost(ActiveDevice{device()}, error.what());
+        throw DeviceLost(ActiveDevice{device_of()}, error.what());
     } catch (...) {
         drain();
         throw;

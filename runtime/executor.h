@@ -88,8 +88,8 @@ private:
     /// Calls on a device's stream; what it throws becomes DeviceLost.
     template <class Call>
     void on(std::size_t device, Call call);
-    template <class Device, class Call>
-    void guard(Device device, Call call);
+    template <class DeviceOf, class Call>
+    void guard(DeviceOf device_of, Call call);
     std::size_t find_submitter(const scheduler::Plan& plan) const;
     void drain();
 

@@ -25,8 +25,6 @@ public:
     std::span<const TaskId> tasks_of(TaskId merged) const {
         return {order_.data() + begin_[merged], begin_[merged + 1] - begin_[merged]};
     }
-    /// Which merged task a task of the original graph has become part of. [task]
-    std::span<const TaskId> merged_task_of() const { return merged_of_; }
 
 private:
     void order_by_kind(const TaskGraph& graph);

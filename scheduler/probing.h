@@ -67,13 +67,11 @@ public:
         debts_[device] += price;
         paid(device, 0.0);
     }
-    /// Seconds that probes may cost now; negative after one that was dearer than predicted.
-    double credit() const { return credit_; }
 
 private:
     ProbeSettings settings_;
     bool is_first_ = true;
-    double credit_ = 0.0;
+    double credit_ = 0.0;  // [s] probes may cost; negative after one that was dearer than predicted
     double advance_ = 0.0;
     std::vector<std::uint32_t> idle_frames_;  // [device]
     std::vector<bool> probed_;                // [device]
