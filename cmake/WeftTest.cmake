@@ -1,5 +1,5 @@
-# Tests. Labels: unit kernels scheduler determinism threads cli cluster stability fuzz install
-# bench-smoke.
+# Tests. Labels: unit kernels scheduler determinism threads cli cluster contact analysis stability
+# fuzz install bench-smoke oclgrind.
 # No test asserts a time: how long things take tell the benchmarks.
 #
 #   weft_test(NAME strips LABELS unit SOURCES strips_test.cpp LIBS weft::simulation)

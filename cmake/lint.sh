@@ -75,7 +75,7 @@ kernels_as_opencl() {
   if [ -x "$(brew --prefix 2>/dev/null)/opt/llvm/bin/clang" ]; then
     clang=$(brew --prefix)/opt/llvm/bin/clang
   fi
-  # What the program's text has as functions already (runtime/opencl/program_text.cpp).
+  # What the program's text has as functions already (runtime/opencl/entry_points.cpp).
   as_functions=$(mktemp)
   cat >"$as_functions" <<'MACROS'
 #pragma clang system_header

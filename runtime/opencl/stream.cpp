@@ -48,7 +48,8 @@ cl_mem_flags flags_of(MemoryModel memory) {
 }
 
 cl::Buffer make_memory(const OpenClTarget& target, const BufferStorage& buffer) {
-    // Whole and padded pages: zero copy asks for them, and no size is 0.
+    // Zero copy asks for multiples of 64 bytes, and no size is 0. The host's memory has whole pages
+    // (BufferStorage), so it does not end before that.
     const std::size_t bytes = std::max<std::size_t>((buffer.bytes() + 63) / 64 * 64, 64);
     return cl::Buffer(target.context, CL_MEM_READ_WRITE | flags_of(target.info.memory), bytes,
                       const_cast<void*>(buffer.host()));  // OpenCL has one pointer for both

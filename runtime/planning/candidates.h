@@ -43,8 +43,9 @@ public:
     /// Whether there are two devices, and strips, to share.
     bool can_mix() const { return !teams_.empty(); }
 
-    /// Whether there are strips enough to place tasks one by one.
+    /// Whether steps can be made for several parts of the strips (StepMaker::can_divide).
     bool can_divide() const { return can_divide_; }
+    /// Whether there are strips enough to place tasks one by one.
     bool can_place() const { return can_mix() && teams_.front().placement.possible(); }
 
     /// To be called when costs have changed: predictions from before are void.

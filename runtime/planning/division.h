@@ -18,7 +18,7 @@ struct Division {
 
     /// The devices that take part, in order: region r of the step is for device devices()[r].
     std::vector<int> devices() const;
-    /// For Solver::make_step(): a part for each device that takes part.
+    /// For StepMaker::make_step(): a part for each device that takes part.
     Partition partition() const;
     /// One bit per device that takes part.
     unsigned mask() const;

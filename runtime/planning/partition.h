@@ -12,7 +12,7 @@ struct Part {
     int begin = 0;
     int end = 0;
     /// The copy of what the iterations work on that this part uses; 0: the maker's own buffers.
-    /// Only OwnIterates has others (own_iterates.h).
+    /// Only makers that keep several copies have others.
     int iterate = 0;
 
     StripRange strips() const { return {begin, end}; }

@@ -36,8 +36,8 @@ public:
     /// step, best  tasks, and what they take by the best division known [s]
     bool promises(const Step& step, const TimingModel& timing, double best);
 
-    /// Makes one attempt to find a better plan, if there is one left to make. Some tens of
-    /// microseconds; the attempts are made anew when costs have changed.
+    /// Makes one attempt to find a better plan, if there is one left to make. It takes milliseconds
+    /// where there are some hundred tasks; the attempts are made anew when costs have changed.
     /// step  any one of the maker
     void improve(const Step& step, const TimingModel& timing);
 

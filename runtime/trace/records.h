@@ -20,7 +20,7 @@ struct DeviceDescription {
     std::string kind;         ///< "tbb" or "opencl"
     std::string driver;       ///< platform and driver version; empty for TBB
     std::uint32_t units = 0;  ///< threads or compute units in use
-    std::string memory;       ///< "host" (zero copy) or "discrete" (range copies)
+    std::string memory;       ///< "host" (zero copy), "mapped" or "discrete" (range copies)
     bool exact = true;        ///< rounds + - * / sqrt as strict arithmetic asks
     std::uint32_t team = 0;   ///< devices of one team work together, teams take turns
 };
@@ -39,7 +39,7 @@ struct RunDescription {
     TextPairs meshes;  ///< bodies whose shape is a file, e.g. "cloth.shirt": hash of its bytes
     std::vector<DeviceDescription> devices;
     std::vector<std::string> kinds;     ///< names of the task kinds, e.g. "predict", "strips"
-    std::vector<std::string> energies;  ///< energies the scene has besides kinetic and total
+    std::vector<std::string> energies;  ///< energies the scene has besides kinetic and gravity
     std::vector<std::string> warnings;  ///< of what there was to doubt before the first frame
     /// False where all devices share memory: then there is no transfers table.
     bool has_transfers = false;
@@ -141,9 +141,9 @@ struct FrameRecord {
     double place_time = 0.0;    ///< obstacles, pins, gravity; a copy of the state to go back to
     double plan_time = 0.0;     ///< the planner
     double execute_time = 0.0;  ///< all substeps, from their submission to the state at the host
-    double check_time = 0.0;    ///< whether the state is one
+    double check_time = 0.0;    ///< whether the state is one; strain and energies
     double learn_time = 0.0;    ///< costs from what was measured, and this record
-    double measure_time = 0.0;  ///< energies and the state's hash, where they are asked for
+    double measure_time = 0.0;  ///< the state's hash, where it is not found out beside a frame
     double output_time = 0.0;   ///< handing over to files and waiting for them; checkpoints, talk
     double planned_makespan = 0.0;   ///< of the whole frame (all substeps) [s]
     double measured_makespan = 0.0;  ///< of the whole frame (all substeps) [s]
@@ -154,7 +154,7 @@ struct FrameRecord {
     std::uint64_t transferred_bytes = 0;
     std::vector<double> busy;  ///< [devices] time spent in tasks [s]
     std::string state_hash;    ///< at the frame's end, 32 hex digits; empty: not known
-    std::string planner;       ///< that found the plan: "in-order", "heft", ...
+    std::string planner;       ///< that found the plan: "in-order", "heft", "shares", ...
     std::shared_ptr<const GraphRecord> graph;  ///< null: not known
     std::vector<PlanRecord> plan;
     std::vector<ExecutionRecord> executions;

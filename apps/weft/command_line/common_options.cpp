@@ -114,10 +114,11 @@ void add_output_options(CLI::App& command, RunOptions& options) {
 void add_trouble_option(CLI::App& command, RunOptions& options) {
     command
         .add_option("--on-trouble", options.on_trouble,
-                    "what to do about a frame that ends with energy from nowhere, or beyond the "
-                    "scene's [guard]: stop; halve (do it again from its start with twice the "
-                    "substeps, up to 16 times as many, and go on with these); report (say so, and "
-                    "go on)")
+                    "what to do about a frame that has exploded (beyond the scene's [guard], or "
+                    "with far more energy than there was) or is not finite: stop; halve (do it "
+                    "again from its start with twice the substeps, up to 16 times as many, and go "
+                    "on with these); report (say so, and go on, unless it is not finite). Of one "
+                    "to be doubted, stop and report warn, and halve does it again")
         ->type_name("KIND")
         ->check(one_of({"stop", "halve", "report"}))
         ->capture_default_str()
