@@ -33,6 +33,8 @@ constexpr double kExplodingMotion = 10.0;
 constexpr double kExplodingStrain = 1000.0;
 
 constexpr double kSmallFall = 0.01;  ///< of the size of everything
+// What is higher than all energy there was could lift it is excused by no strain that is not seen.
+constexpr double kSmallLift = 0.0025;  ///< likewise
 constexpr double kRounding = static_cast<double>(std::numeric_limits<float>::epsilon());
 
 /// The diagonal of the box around all vertices [m].
@@ -55,6 +57,11 @@ double last_closing(const Scene& scene) {
 
 double mass_of(const Model& model) {
     return std::accumulate(model.masses.begin(), model.masses.end(), 0.0);
+}
+
+/// What it takes to lift everything by its own size [J].
+double lift_by_size(const Model& model) {
+    return size_of(model) * length(model.scene.gravity_at(0.0)) * mass_of(model);
 }
 
 /// What the elements have more of where every coordinate is off by its own last bits [J], and what
@@ -98,9 +105,10 @@ double most_strain(const Model& model, const Strain& strain) {
 }  // namespace
 
 EnergyAccount::EnergyAccount(const Model& model, const Energies& start)
-    : closed_(last_closing(model.scene)),
-      small_(kSmallFall * size_of(model) * length(model.scene.gravity_at(0.0)) * mass_of(model) +
-             energy_inside_obstacles(model)) {
+    : closed_(last_closing(model.scene)) {
+    const double inside = energy_inside_obstacles(model);
+    small_ = kSmallFall * lift_by_size(model) + inside;
+    small_lift_ = kSmallLift * lift_by_size(model) + inside;
     last_.start = start.total();
     last_.energies = start;
     for (const auto& family : model.families) {
@@ -123,6 +131,10 @@ EnergyAccount::Entry EnergyAccount::with_frame(double time, const OutsideWork& o
                                                const Energies& end, double found) const {
     if (time < closed_) return {end.total(), {}, end, false};
     Entry entry{last_.start + found, last_.outside, end, true};
+    if (std::isinf(last_.outside.doubt) && std::isfinite(outside.doubt)) {
+        entry.start = last_.energies.total() + found;
+        entry.outside = {};
+    }
     entry.outside.work += outside.work;
     entry.outside.doubt += outside.doubt;
     return entry;
@@ -132,28 +144,36 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
                                                const Model& model) const {
     if (!entry.is_known) return std::nullopt;
     const double outside = entry.outside.work + entry.outside.doubt;
-    const double had = std::max(entry.start + outside - entry.energies.gravity, 0.0);
+    const double left = entry.start + outside - entry.energies.gravity;
+    const double had = std::max(left, 0.0);
+    const double lifted = std::max(-left, 0.0);
     const double motion = entry.energies.kinetic;
     const double strained = entry.energies.strain();
     const double pressed = entry.energies.contact.value_or(0.0);
     const double most = most_strain(model, strain);
-    const auto is_fine = [&](double enough) {
-        return motion <= kMostMotion * enough && strained <= most * enough &&
-               pressed <= kMostInContacts * enough &&
+    const auto is_fine = [&](double rounding) {
+        const double enough = had + small_ + rounding;
+        return lifted <= small_lift_ + rounding && motion <= kMostMotion * enough &&
+               strained <= most * enough && pressed <= kMostInContacts * enough &&
                (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
     };
     // What rounding gives takes a while to find out, and is hardly ever asked for.
-    if (is_fine(had + small_)) return std::nullopt;
-    const double enough = had + small_ + energy_of_rounding(model);
-    if (is_fine(enough)) return std::nullopt;
+    if (is_fine(0.0)) return std::nullopt;
+    const double rounding = energy_of_rounding(model);
+    if (is_fine(rounding)) return std::nullopt;
+    const double enough = had + small_ + rounding;
     const bool explodes = motion > kExplodingMotion * enough ||
                           (strained > kExplodingStrain * enough && is_visible(model, strain));
+    const std::string in_contacts =
+        pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "";
+    const std::string there_was =
+        lifted > 0.0
+            ? fmt::format("and everything has been lifted by {:.3g} J more than there was", lifted)
+            : fmt::format("where {:.3g} J were to be had", had);
     return EnergyAlarm{
         fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
-                    "{:.3g} % RMS), where {:.3g} J were to be had",
-                    motion, strained,
-                    pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "",
-                    100.0 * strain.rms, had),
+                    "{:.3g} % RMS), {}",
+                    motion, strained, in_contacts, 100.0 * strain.rms, there_was),
         explodes};
 }
 

@@ -64,7 +64,8 @@ private:
     double energy_of_ties(const Model& model) const;
 
     std::vector<TieElement> ties_;
-    double small_;  ///< [J] that a little fall gives, and what starts inside obstacles gets
+    double small_ = 0.0;  ///< [J] that a little fall gives, and what starts inside obstacles gets
+    double small_lift_ = 0.0;  ///< [J] that lifts everything by even less, and again these
     Entry last_;
 };
 

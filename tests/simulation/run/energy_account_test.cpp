@@ -1,0 +1,77 @@
+// What speaks against a state, of the energy alone.
+
+#include "simulation/checks/energy_account.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "simulation/diagnostics.h"
+#include "simulation/scene/read_scene.h"
+#include "tests/simulation/run/manual_run.h"
+
+namespace weft::test {
+namespace {
+
+/// A sheet that nothing holds, 1.41 m from corner to corner.
+Scene loose_sheet() {
+    return parse_scene(R"(
+[scene]
+frames = 1
+dt = 0.016666667
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [5, 5] }
+density = 0.2
+stretch = { stiffness = 1.0e4 }
+)",
+                       "test.toml");
+}
+
+Energies energies_of(const Model& model) {
+    return measure_energies(model, model.positions->span(), model.velocities->span(), 0.0);
+}
+
+/// Whether there is something against the sheet that is at rest, by so much higher than it began.
+bool is_told_of(double lift) {
+    ManualRun sheet(loose_sheet());
+    Model& model = *sheet.model;
+    const EnergyAccount account(model, energies_of(model));
+    for (float4& x : model.positions->span()) x.y += static_cast<float>(lift);
+    const auto entry = account.with_frame(0.0, {}, energies_of(model));
+    const auto alarm = account.look(entry, {}, model);
+    if (!alarm) return false;
+    EXPECT_FALSE(alarm->is_explosion);
+    EXPECT_NE(alarm->what.find("everything has been lifted by"), std::string::npos) << alarm->what;
+    return true;
+}
+
+TEST(EnergyAccount, TellsOfWhatIsLiftedByNothing) {
+    EXPECT_FALSE(is_told_of(-0.1));
+    EXPECT_FALSE(is_told_of(0.003));
+    EXPECT_TRUE(is_told_of(0.004));
+    EXPECT_TRUE(is_told_of(1.0));
+}
+
+/// What was not known of is forgotten once all is known again: what there is then was there.
+TEST(EnergyAccount, BeginsAnewWhereWorkIsKnownAgain) {
+    ManualRun sheet(loose_sheet());
+    Model& model = *sheet.model;
+    EnergyAccount account(model, energies_of(model));
+    const auto stand_at = [&](float height) {
+        for (float4& x : model.positions->span()) x.y = height;
+        return energies_of(model);
+    };
+    const double unknown = std::numeric_limits<double>::infinity();
+    const auto look = [&](const EnergyAccount::Entry& entry) {
+        const auto alarm = account.look(entry, {}, model);
+        account.accept(entry);
+        return alarm.has_value();
+    };
+    EXPECT_FALSE(look(account.with_frame(0.0, {0.0, unknown}, stand_at(1.0f))));
+    EXPECT_FALSE(look(account.with_frame(0.1, {0.0, unknown}, stand_at(2.0f))));
+    EXPECT_FALSE(look(account.with_frame(0.2, {}, stand_at(2.0f))));
+    EXPECT_TRUE(look(account.with_frame(0.3, {}, stand_at(2.1f))));
+}
+
+}  // namespace
+}  // namespace weft::test
