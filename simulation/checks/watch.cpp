@@ -15,7 +15,10 @@ Alarm alarm_of(const EnergyAlarm& alarm) {
 }  // namespace
 
 Watch::Watch(const Model& model, bool keeps_account, int threads)
-    : threads_(threads), keeps_account_(keeps_account), account_(model, energies_of(model, 0.0)) {}
+    : threads_(threads),
+      keeps_account_(keeps_account),
+      account_(model, energies_of(model, 0.0)),
+      bodies_(model) {}
 
 Watch::Look Watch::look(const Model& model, const SimulationState& before, double start, double end,
                         const StoredInContacts& contacts) const {
@@ -46,7 +49,9 @@ Watch::Look Watch::look_here(const Model& model, const SimulationState& before, 
     if (const auto& bad = state.beyond_guard) {
         look.alarm = {Alarm::Kind::kExplosion, bad->what, bad->vertex};
     } else if (keeps_account_) {
-        const auto alarm = account_.look(look.entry, look.strain, model);
+        look.bodies = bodies_.measure(model, end);
+        auto alarm = account_.look(look.entry, look.strain, model);
+        if (!alarm) alarm = bodies_.look(model, look.bodies);
         if (alarm) look.alarm = alarm_of(*alarm);
     }
     return look;
@@ -56,7 +61,9 @@ void Watch::accept(const Look& look, bool forgives) {
     if (!keeps_account_) return;
     account_.accept(look.entry);
     knows_contacts_ = true;
-    if (forgives) account_.forgive();
+    if (!forgives) return;
+    account_.forgive();
+    bodies_.forgive(look.bodies);
 }
 
 void Watch::restart(const Model& model, double time,
@@ -65,8 +72,10 @@ void Watch::restart(const Model& model, double time,
     const Energies now = energies_of(model, time);
     if (saved)
         account_.restore(*saved, now);
-    else
+    else {
         account_ = EnergyAccount(model, now);
+        bodies_ = BodyAccounts(model);
+    }
 }
 
 }  // namespace weft

@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/tbb/parallel.h"
+#include "simulation/checks/body_accounts.h"
 #include "simulation/checks/energy_account.h"
 #include "simulation/contact/energy.h"
 #include "simulation/state.h"
@@ -30,6 +32,7 @@ public:
     struct Look {
         Strain strain;
         EnergyAccount::Entry entry;
+        std::vector<BodyAccounts::Energy> bodies;  ///< where they are looked at
         std::optional<Alarm> alarm;
     };
 
@@ -58,6 +61,7 @@ private:
     HostThreads threads_;
     bool keeps_account_;
     EnergyAccount account_;
+    BodyAccounts bodies_;
     bool knows_contacts_ = false;  ///< what they have stored in the last state
 };
 
