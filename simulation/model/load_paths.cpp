@@ -47,7 +47,13 @@ std::vector<int> flood(const VertexGraph& graph, std::vector<int> front, std::ve
 class PathFinder {
 public:
     PathFinder(const Gathered& all, std::span<const Stencils> links)
-        : all_(all), graph_(make_graph(all, links)), seen_(all.rest.size(), kFar), levels_(seen_) {}
+        : all_(all), graph_(make_graph(all, links)), seen_(all.rest.size(), kFar), levels_(seen_) {
+        for (const BodyRange& body : all.bodies) {
+            const auto first = all.held.begin() + body.first_vertex;
+            const auto is_held = [](auto held) { return held != 0; };
+            all_held_.push_back(std::all_of(first, first + body.vertex_count, is_held) ? 1 : 0);
+        }
+    }
 
     std::vector<LoadPath> find() {
         std::vector<LoadPath> paths;
@@ -98,10 +104,15 @@ private:
         return std::max(4.0 * std::abs(volume) / std::max(area, 1e-18), 1e-9);
     }
 
-    /// Of the bodies that the part belongs to. A solid's inside is on no triangle: it counts whole.
+    /// Of the bodies that the part belongs to and that pins do not hold all over, if there are any:
+    /// the others carry nothing. A solid's inside is on no triangle: it counts whole.
     std::map<std::size_t, double> masses_of(const std::vector<int>& part) const {
         std::map<std::size_t, double> masses;
-        for (const int v : part) masses[body_of(v)] += all_.masses[at(v)];
+        const auto is_free = [&](int v) { return all_held_[body_of(v)] == 0; };
+        const bool is_any_free = std::ranges::any_of(part, is_free);
+        for (const int v : part) {
+            if (!is_any_free || is_free(v)) masses[body_of(v)] += all_.masses[at(v)];
+        }
         for (auto& [number, mass] : masses) {
             const BodyRange& body = all_.bodies[number];
             if (body.kind != "solid") continue;
@@ -148,6 +159,7 @@ private:
     const Gathered& all_;
     VertexGraph graph_;
     std::vector<int> seen_, levels_;  ///< [vertices]
+    std::vector<int> all_held_;       ///< [bodies] 1: pins hold all of it
 };
 
 }  // namespace

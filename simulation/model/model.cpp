@@ -51,9 +51,7 @@ std::vector<Stencils> kinds_of(const Gathered& all) {
 }
 
 double strongest_gravity(const Scene& scene) {
-    constexpr double kLeast = 1.0;  // [m/s^2] something moves in every scene
-    double strongest =
-        std::max(kLeast, length(scene.gravity_keys.empty() ? scene.gravity : Vec3{}));
+    double strongest = length(scene.gravity_keys.empty() ? scene.gravity : Vec3{});
     for (const GravityKey& key : scene.gravity_keys) {
         strongest = std::max(strongest, length(key.gravity));
     }
@@ -89,10 +87,15 @@ bool bears(const LoadPath& path, const Scene& scene) {
     return path.is_held || !scene.obstacles.empty() || scene.contact;
 }
 
+/// Something moves in every scene, if by pins alone: as if by this much gravity at least.
+int good_substeps(const Scene& scene, const std::vector<LoadPath>& paths) {
+    constexpr double kLeast = 1.0;  // [m/s^2]
+    return believable_substeps(paths, scene.dt, carrying_iterations(scene.solver),
+                               std::max(kLeast, strongest_gravity(scene)));
+}
+
 Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
-    if (scene.substeps > 0) return scene;
-    scene.substeps = believable_substeps(paths, scene.dt, carrying_iterations(scene.solver),
-                                         strongest_gravity(scene));
+    if (scene.substeps == 0) scene.substeps = good_substeps(scene, paths);
     return scene;
 }
 
@@ -112,8 +115,7 @@ Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings)
             "'{}' is too fine for scene.substeps = {} of {} iterations: they will leave it "
             "stretched "
             "by some {:.0f} %, whatever its stiffness; {} substeps would make that half a per cent",
-            path.body, scene.substeps, iterations, 100.0 * strain,
-            believable_substeps(paths, scene.dt, iterations, gravity)));
+            path.body, scene.substeps, iterations, 100.0 * strain, good_substeps(scene, paths)));
         break;
     }
     return scene;

@@ -20,8 +20,8 @@ bool is(const char* kind) {
     return set != nullptr && std::strcmp(set, kind) == 0;
 }
 
-/// Not by raise(): a driver beside this one may have a handler that only stops real ones. Sanitizers
-/// would report the store instead of doing it.
+/// Not by raise(): a driver beside this one may have a handler that only stops real ones.
+/// Sanitizers would report the store instead of doing it.
 __attribute__((no_sanitize("undefined"))) void crash() {
     volatile int* volatile nowhere = nullptr;
     *nowhere = 1;

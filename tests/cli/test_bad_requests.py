@@ -309,7 +309,16 @@ max_speed = 1.0
 """)
     result = run(folder, "--quiet")
     assert result.returncode == 1
-    assert "start inside" in result.stderr
+    assert result.stderr.count("start inside") == 1
+
+
+def test_warnings_of_the_start_of_a_quiet_run(folder):
+    (folder / "scene.toml").write_text(SHEET + 'pins = { corners = ["x-z-"] }\n')
+    result = run(folder, "--quiet", "--json", "--set", "scene.size=4000", "--frames", 1)
+    assert result.returncode == 0
+    [warning] = json.loads(result.stdout)["warnings"]
+    assert "too fine" in warning
+    assert result.stderr == f"weft: warning: {warning}\n"
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="nothing is read-only for root")

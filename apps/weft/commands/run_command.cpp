@@ -18,13 +18,7 @@ namespace {
 void run_scene(const RunOptions& options, bool keeps_checkpoint) {
     const InterruptNotice notice;
     SceneRun run(options, keeps_checkpoint);
-    try {
-        run.advance_all(notice);
-    } catch (const RunError&) {
-        // There is no summary to say them then, and they may be why.
-        if (options.quiet) print_warnings(run.all_warnings());
-        throw;
-    }
+    run.advance_all(notice);
     const RunSummary summary = run.finish();
     if (options.json)
         std::cout << json_text(to_json(summary)) << std::endl;

@@ -92,7 +92,7 @@ void SceneRun::warn_of_missing_outputs() {
         warnings_.push_back(
             fmt::format("{}: nothing of it is there from before frame {}, so it begins there",
                         file.string(), earlier_->frames()));
-        if (!options_.quiet) print_warnings({warnings_.back()});
+        print_warnings({warnings_.back()});
     };
     if (!options_.no_trace && !earlier_->has_trace()) warn(folder_.trace());
     if (!options_.no_geometry && !earlier_->has_geometry()) warn(folder_.geometry());
@@ -106,7 +106,7 @@ void SceneRun::warn_of_other_scene() {
         fmt::format("{}: this replaces a run of another scene, '{}', that did not finish; another "
                     "--out keeps both",
                     folder_.path().string(), other));
-    if (!options_.quiet) print_warnings({warnings_.back()});
+    print_warnings({warnings_.back()});
 }
 
 void SceneRun::claim_folder() {
@@ -149,11 +149,11 @@ void SceneRun::set_up() {
     const std::string trouble = cache_folder_trouble();
     if (!trouble.empty()) warnings_.push_back(trouble);
     simulation_.emplace(scene_, settings, warnings_);
+    print_warnings(all_warnings());
     if (!options_.quiet) say_what_runs();
 }
 
 void SceneRun::say_what_runs() const {
-    print_warnings(all_warnings());
     std::vector<std::string> devices;
     for (const auto& device : simulation_->devices()) {
         const DeviceInfo& info = device->info();

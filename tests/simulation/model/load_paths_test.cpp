@@ -77,6 +77,15 @@ TEST(LoadPaths, TiedBodiesBurdenTheLightest) {
 }
 
 /// 1 m from its pins on, by edges of 0.1 m and diagonals; its volume is its surface times 0.0238 m.
+/// What pins hold all over carries nothing, however light it is.
+TEST(LoadPaths, ThatAreHeldAllOverAreNotBurdened) {
+    const std::string all_pinned = "pins = { box = [[-9.0, -9.0, -9.0], [9.0, 9.0, 9.0]] }\n";
+    const auto paths = paths_of(kSheet + all_pinned + kBlock + kTies, true);
+    ASSERT_EQ(paths.size(), 1U);
+    EXPECT_EQ(paths[0].body, "block");
+    EXPECT_EQ(paths[0].burden, 1.0);
+}
+
 TEST(LoadPaths, OfSolidsThatPinsHoldMayBeSlender) {
     const std::string beam = R"(
 [scene]
@@ -142,6 +151,22 @@ TEST(Substeps, ThatAreTooFewAreWarnedOf) {
     scene.substeps = 2;
     const Model enough(scene, warnings);
     EXPECT_TRUE(warnings.empty());
+}
+
+/// Where things weigh less, less is left undone.
+TEST(Substeps, AreWarnedOfByTheScenesOwnGravity) {
+    Warnings warnings;
+    const std::string one_step = "substeps = 1\n";
+    const auto with = [&](const std::string& gravity) {
+        std::string text = kSheet + kPins;
+        text.insert(text.find("[[cloth]]"), one_step + "gravity = " + gravity + "\n");
+        warnings.clear();
+        const Model model = model_of(text, warnings);
+        return !warnings.empty();
+    };
+    EXPECT_TRUE(with("[0.0, -98.1, 0.0]"));
+    EXPECT_FALSE(with("[0.0, -0.0981, 0.0]"));
+    EXPECT_FALSE(with("[0.0, 0.0, 0.0]"));
 }
 
 /// By their masses, xpbd's constraints move the light body; descent moves the heavy one by its own
