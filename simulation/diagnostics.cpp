@@ -40,6 +40,13 @@ std::optional<BadState> find_too_fast(const Model& model) {
                                    text_of(to_vec3(velocities[at(v)])), most)};
 }
 
+/// Every vertex is one body's.
+const BodyRange& body_of(const Model& model, int vertex) {
+    const SceneVertex in_scene = model.scene_vertex(vertex);
+    return *std::ranges::find_if(model.bodies,
+                                 [&](const BodyRange& body) { return body.has(in_scene); });
+}
+
 /// Of the vertices of a block.
 struct BlockOfVertices {
     bool is_finite = true;
@@ -214,13 +221,14 @@ StateLook look_at_state(const Model& model, double time, double contact, bool wi
     return look;
 }
 
+std::string body_name(const Model& model, int vertex) {
+    const BodyRange& body = body_of(model, vertex);
+    return fmt::format("{} '{}'", body.kind, body.name);
+}
+
 std::string vertex_name(const Model& model, int vertex) {
-    const SceneVertex in_scene = model.scene_vertex(vertex);
-    for (const BodyRange& body : model.bodies) {
-        if (!body.has(in_scene)) continue;
-        return fmt::format("vertex {} of {} '{}'", body.own(in_scene), body.kind, body.name);
-    }
-    return fmt::format("vertex {}", index(in_scene));
+    const int own = body_of(model, vertex).own(model.scene_vertex(vertex));
+    return fmt::format("vertex {} of {}", own, body_name(model, vertex));
 }
 
 }  // namespace weft

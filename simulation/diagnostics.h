@@ -49,6 +49,8 @@ StateLook look_at_state(const Model& model, double time, double contact, bool wi
 /// Sum of mass times place of all that moves freely, in the scene's own coordinates [kg m].
 Vec3 mass_moment(const Model& model, std::span<const float4> positions);
 
+/// "cloth 'sheet'", which a vertex belongs to
+std::string body_name(const Model& model, int vertex);
 /// "vertex 12 of cloth 'sheet'"
 std::string vertex_name(const Model& model, int vertex);
 

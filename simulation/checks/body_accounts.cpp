@@ -25,15 +25,6 @@ bool is_each_alone(const Model& model) {
            !model.moving_pins && std::ranges::none_of(model.convex_obstacles, moves);
 }
 
-/// "cloth 'sheet'" of one of its vertices.
-std::string name_of_body(const Model& model, int vertex) {
-    const SceneVertex in_scene = model.scene_vertex(vertex);
-    for (const BodyRange& range : model.bodies) {
-        if (range.has(in_scene)) return fmt::format("{} '{}'", range.kind, range.name);
-    }
-    return "a body";
-}
-
 }  // namespace
 
 BodyAccounts::BodyAccounts(const Model& model) {
@@ -95,7 +86,7 @@ std::optional<EnergyAlarm> BodyAccounts::look(const Model& model,
         const double enough = had + kSmallFall * lift_[body] + excused;
         return EnergyAlarm{
             fmt::format("energy from nowhere: {} has {:.3g} J of motion and {:.3g} J of strain, {}",
-                        name_of_body(model, begins_[body]), now[body].kinetic, now[body].strain,
+                        body_name(model, begins_[body]), now[body].kinetic, now[body].strain,
                         there_was(had, lifted)),
             now[body].kinetic > kExplodingMotion * enough};
     }

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "simulation/checks/energy_limits.h"
 #include "simulation/checks/start_checks.h"
-#include "simulation/families/convert.h"
 
 namespace weft {
 
@@ -58,8 +56,9 @@ double most_strain(const Model& model, const Strain& strain) {
 EnergyAccount::EnergyAccount(const Model& model, const Energies& start)
     : closed_(last_closing(model.scene)) {
     const double inside = energy_inside_obstacles(model);
-    small_ = kSmallFall * lift_by_size(model, 0, model.vertex_count()) + inside;
-    small_lift_ = kSmallLift * lift_by_size(model, 0, model.vertex_count()) + inside;
+    const double lift = lift_by_size(model, 0, model.vertex_count());
+    small_ = kSmallFall * lift + inside;
+    small_lift_ = kSmallLift * lift + inside;
     last_.start = start.total();
     last_.energies = start;
     for (const auto& family : model.families) {

@@ -70,9 +70,9 @@ void Watch::restart(const Model& model, double time,
                     const std::optional<std::array<double, 4>>& saved) {
     knows_contacts_ = saved.has_value();
     const Energies now = energies_of(model, time);
-    if (saved)
+    if (saved) {
         account_.restore(*saved, now);
-    else {
+    } else {
         account_ = EnergyAccount(model, now);
         bodies_ = BodyAccounts(model);
     }

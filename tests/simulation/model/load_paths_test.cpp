@@ -76,7 +76,6 @@ TEST(LoadPaths, TiedBodiesBurdenTheLightest) {
     EXPECT_NEAR(paths[0].burden, 8.4 / 0.4, 1e-9);
 }
 
-/// 1 m from its pins on, by edges of 0.1 m and diagonals; its volume is its surface times 0.0238 m.
 /// What pins hold all over carries nothing, however light it is.
 TEST(LoadPaths, ThatAreHeldAllOverAreNotBurdened) {
     const std::string all_pinned = "pins = { box = [[-9.0, -9.0, -9.0], [9.0, 9.0, 9.0]] }\n";
@@ -86,6 +85,7 @@ TEST(LoadPaths, ThatAreHeldAllOverAreNotBurdened) {
     EXPECT_EQ(paths[0].burden, 1.0);
 }
 
+/// 1 m from its pins on, by edges of 0.1 m and diagonals; its volume is its surface times 0.0238 m.
 TEST(LoadPaths, OfSolidsThatPinsHoldMayBeSlender) {
     const std::string beam = R"(
 [scene]

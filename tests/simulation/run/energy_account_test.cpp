@@ -10,6 +10,7 @@
 #include "simulation/diagnostics.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/manual_run.h"
+#include "tests/simulation/run/one_plan.h"
 
 namespace weft::test {
 namespace {
@@ -118,6 +119,34 @@ TEST(EnergyAccount, BeginsAnewWhereWorkIsKnownAgain) {
     EXPECT_FALSE(look(account.with_frame(0.1, {0.0, unknown}, stand_at(2.0f))));
     EXPECT_FALSE(look(account.with_frame(0.2, {}, stand_at(2.0f))));
     EXPECT_TRUE(look(account.with_frame(0.3, {}, stand_at(2.1f))));
+}
+
+/// While pins move in ways of their own, nobody knows their work. Once they rest, it is known
+/// again.
+TEST(EnergyAccount, TellsOnceThePinsRest) {
+    const Scene scene = parse_scene(R"(
+[scene]
+frames = 12
+dt = 0.016666667
+substeps = 1
+[solver]
+iterations = 2
+[[cloth]]
+grid = { size = [1.0, 1.0], resolution = [40, 40] }
+density = 0.2
+stretch = { stiffness = 1.0e5 }
+damping = 0.1
+[[cloth.pins]]
+corners = ["x-z-"]
+[[cloth.pins]]
+corners = ["x+z-"]
+motion.keyframes = [{ time = 0.0 }, { time = 0.03, translate = [-0.01, 0.0, 0.0] }]
+)",
+                                    "test.toml");
+    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+    while (simulation.frame() < scene.frames) simulation.advance();
+    ASSERT_FALSE(simulation.troubles().empty());
+    EXPECT_NE(simulation.troubles()[0].what.find("energy from nowhere"), std::string::npos);
 }
 
 }  // namespace

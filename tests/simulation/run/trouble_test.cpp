@@ -77,34 +77,6 @@ velocity = [2.0, 0.0, 1.0]
     EXPECT_NE(simulation.troubles()[0].what.find("energy from nowhere"), std::string::npos);
 }
 
-/// While pins move in ways of their own, nobody knows their work. Once they rest, it is known
-/// again.
-TEST(Trouble, IsSeenWherePinsRestAgain) {
-    const Scene scene = parse_scene(R"(
-[scene]
-frames = 12
-dt = 0.016666667
-substeps = 1
-[solver]
-iterations = 2
-[[cloth]]
-grid = { size = [1.0, 1.0], resolution = [40, 40] }
-density = 0.2
-stretch = { stiffness = 1.0e5 }
-damping = 0.1
-[[cloth.pins]]
-corners = ["x-z-"]
-[[cloth.pins]]
-corners = ["x+z-"]
-motion.keyframes = [{ time = 0.0 }, { time = 0.03, translate = [-0.01, 0.0, 0.0] }]
-)",
-                                    "test.toml");
-    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
-    while (simulation.frame() < scene.frames) simulation.advance();
-    ASSERT_FALSE(simulation.troubles().empty());
-    EXPECT_NE(simulation.troubles()[0].what.find("energy from nowhere"), std::string::npos);
-}
-
 struct Halved {
     std::string hash;
     double strain = 0.0;
