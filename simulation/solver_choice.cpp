@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "simulation/model/substeps.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/scene/solver_limits.h"
 #include "simulation/simulation.h"

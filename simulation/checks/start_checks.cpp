@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "simulation/checks/energy_account.h"
 #include "simulation/families/convert.h"
+#include "simulation/model/reach.h"
 
 namespace weft {
 
@@ -89,11 +89,6 @@ double reach_of_bodies(const Model& model) {
     return most;
 }
 
-/// What single precision takes from a coordinate of that size, or gives to it [m].
-double rounding_at(double reach) {
-    return 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
-}
-
 /// The way that gravity makes in a substep [m]; 0: there is none.
 double fall_in_substep(const Model& model) {
     return length(model.scene.gravity_at(0.0)) * model.h * model.h;
@@ -130,10 +125,10 @@ std::string longer_steps(const Scene& scene, double longer) {
 /// was 3 times as far away by 256, and 20 times by 512, by vbd, sosd and newton
 /// (docs/measurements.md).
 void warn_of_short_steps(const Model& model, double reach, Warnings& warnings) {
-    constexpr double kTooShort = 2.0, kLongEnough = 0.5;
+    constexpr double kLongEnough = 0.5;
     const double rounding = rounding_at(reach);
     const double fall = fall_in_substep(model);
-    if (fall <= 0.0 || rounding < kTooShort * fall) return;
+    if (fall <= 0.0 || rounding < kTooShortBy * fall) return;
     const Scene& scene = model.scene;
     const double longer = std::sqrt(rounding / (kLongEnough * fall));
     warnings.push_back(fmt::format(

@@ -67,6 +67,12 @@ public:
     virtual std::unique_ptr<ElementFamily> build(const Strips& strips,
                                                  std::span<const Vec3> rest) const = 0;
 
+    /// Adds to each vertex what holds it back at rest from moving alone along a unit vector, where
+    /// such elements bear by bending: the diagonal of the energy's second derivatives.
+    /// rest, firmness: [vertices] in scene order [m, N/m]
+    virtual void add_firmness(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
+                              std::span<double> /*firmness*/) const {}
+
     /// What of the family the scene leaves out. exists: the model has elements of it
     virtual std::vector<Absence> absences(const Scene& scene, bool exists) const = 0;
 

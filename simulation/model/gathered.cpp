@@ -64,6 +64,7 @@ void add_mass(Gathered& all, const std::array<int, arity>& element, int first, d
 void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& warnings) {
     const TriangleMesh mesh = build_cloth_mesh(cloth, warnings);
     const int first = add_body(all, "cloth", cloth, mesh, warnings);
+    all.bearings.push_back({cloth.density, cloth.bend ? cloth.bend->stiffness : 0.0});
     if (std::holds_alternative<MeshFile>(cloth.shape)) {
         all.bodies.back().parts = named_parts(mesh);
         all.bodies.back().welded = mesh.welded;
@@ -85,6 +86,7 @@ void add_cloth(Gathered& all, const Scene& scene, const Cloth& cloth, Warnings& 
 void add_solid(Gathered& all, const Solid& solid, Warnings& warnings) {
     const TetMesh mesh = build_solid_mesh(solid, warnings);
     const int first = add_body(all, "solid", solid, mesh, warnings);
+    all.bearings.push_back({solid.density, solid.material.young});
     add_surface(all, boundary_faces(mesh), first);
     for (const auto& t : mesh.tetrahedra) {
         add_mass(all, t, first, solid.density * six_volumes(mesh, t) / 6.0);
@@ -97,6 +99,7 @@ void add_obstacle(Gathered& all, const MeshObstacle& obstacle, Warnings& warning
     auto [mesh, frames] = build_obstacle_mesh(obstacle, warnings);
     const int first = static_cast<int>(all.rest.size());
     all.bodies.push_back({obstacle.name, "obstacle", first, mesh.vertex_count()});
+    all.bearings.push_back({});
     all.rest.insert(all.rest.end(), mesh.positions.begin(), mesh.positions.end());
     all.masses.resize(all.rest.size(), 0.0);
     all.held.resize(all.rest.size(), 1);

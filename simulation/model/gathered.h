@@ -9,10 +9,17 @@
 
 namespace weft {
 
+/// What bears a body's weight by bending: of cloth [kg/m^2, J], of a solid [kg/m^3, Pa].
+struct Bearing {
+    double density = 0.0;
+    double stiffness = 0.0;  ///< 0: nothing does
+};
+
 /// Everything about a scene's bodies before strips are known, in scene order: the vertices of the
 /// cloths, those of the solids, those of the obstacles' meshes.
 struct Gathered {
     std::vector<BodyRange> bodies;
+    std::vector<Bearing> bearings;  ///< [bodies]
     /// Of cloths all, of solids their surface; what geometry files show.
     std::vector<std::array<int, 3>> triangles;
     /// No elements, but what lies together in an obstacle's surface lies together in the order.

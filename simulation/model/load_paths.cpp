@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kFar = -1;
 constexpr int kHere = -2;
-constexpr double kStrainOfCloth = 0.005;
-constexpr double kStrainOfSolids = 0.001;
-constexpr double kLongestStep = 1.0 / 240.0;  ///< [s]
-constexpr int kMostSubsteps = 1000;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -46,8 +42,12 @@ std::vector<int> flood(const VertexGraph& graph, std::vector<int> front, std::ve
 
 class PathFinder {
 public:
-    PathFinder(const Gathered& all, std::span<const Stencils> links)
-        : all_(all), graph_(make_graph(all, links)), seen_(all.rest.size(), kFar), levels_(seen_) {
+    PathFinder(const Gathered& all, std::span<const Stencils> links, Vec3 gravity)
+        : all_(all),
+          down_(length(gravity) > 0.0 ? normalized(gravity) : Vec3{}),
+          graph_(make_graph(all, links)),
+          seen_(all.rest.size(), kFar),
+          levels_(seen_) {
         for (const BodyRange& body : all.bodies) {
             const auto first = all.held.begin() + body.first_vertex;
             const auto is_held = [](auto held) { return held != 0; };
@@ -83,7 +83,71 @@ private:
         if (path.is_solid && path.is_held) {
             path.slender = std::max(1.0, path.levels * path.edge / thickness_of(part));
         }
+        if (path.is_held && length(down_) > 0.0) add_bending(path, part, masses);
         return path;
+    }
+
+    void add_bending(LoadPath& path, const std::vector<int>& part,
+                     const std::map<std::size_t, double>& masses) {
+        const bool is_cloth = std::ranges::all_of(
+            masses, [&](const auto& entry) { return all_.bodies[entry.first].kind == "cloth"; });
+        if (!is_cloth && !path.is_solid) return;
+        double reach = 0.0;
+        double firmness = 0.0;
+        double mass = 0.0;
+        for (const auto& [number, own] : masses) {
+            const auto& [density, stiffness] = all_.bearings[number];
+            if (stiffness <= 0.0) continue;
+            if (reach == 0.0) reach = reach_of(part, path.is_solid);
+            const double across = path.is_solid ? thickness_of(part) : 1.0;
+            const double factor = path.is_solid ? 1.5 : 0.125;
+            path.softness = std::max(path.softness, factor * density * std::pow(reach, 3) /
+                                                        (stiffness * across * across));
+            firmness += firmness_of(number);
+            mass += own;
+        }
+        path.firmness = mass > 0.0 ? firmness / mass : 0.0;
+    }
+
+    /// The sum over a body's vertices [N/m].
+    double firmness_of(std::size_t number) {
+        if (firmness_.empty()) {
+            firmness_.resize(all_.rest.size(), 0.0);
+            for (const auto& family : all_.families) {
+                family->add_firmness(all_.rest, down_, firmness_);
+            }
+        }
+        const auto first = firmness_.begin() + all_.bodies[number].first_vertex;
+        return std::accumulate(first, first + all_.bodies[number].vertex_count, 0.0);
+    }
+
+    /// How far the farthest vertex is from the held one that it hangs on: along the path, or
+    /// straight across gravity [m].
+    double reach_of(const std::vector<int>& part, bool across) {
+        std::vector<int> front;
+        for (const int v : part) {
+            levels_[at(v)] = kFar;
+            if (all_.held[at(v)] != 0) front.push_back(v);
+        }
+        from_held_.resize(all_.rest.size());
+        for (const int v : front) {
+            levels_[at(v)] = kHere;
+            from_held_[at(v)] = {};
+        }
+        double reach = 0.0;
+        for (std::size_t next = 0; next < front.size(); ++next) {
+            const int v = front[next];
+            reach = std::max(reach, length(from_held_[at(v)]));
+            for (const int w : graph_.neighbours(v)) {
+                if (levels_[at(w)] != kFar) continue;
+                levels_[at(w)] = kHere;
+                const Vec3 edge = all_.rest[at(w)] - all_.rest[at(v)];
+                from_held_[at(w)] = across ? from_held_[at(v)] + edge - dot(edge, down_) * down_
+                                           : from_held_[at(v)] + Vec3{length(edge), 0.0, 0.0};
+                front.push_back(w);
+            }
+        }
+        return reach;
     }
 
     /// Four times volume over surface: that of a long bar with a square across [m].
@@ -157,33 +221,19 @@ private:
     }
 
     const Gathered& all_;
+    Vec3 down_;  ///< 0: without gravity
     VertexGraph graph_;
     std::vector<int> seen_, levels_;  ///< [vertices]
     std::vector<int> all_held_;       ///< [bodies] 1: pins hold all of it
+    std::vector<Vec3> from_held_;     ///< [vertices] [m]
+    std::vector<double> firmness_;    ///< [vertices] [N/m]
 };
 
 }  // namespace
 
-std::vector<LoadPath> load_paths(const Gathered& all, std::span<const Stencils> links) {
-    return PathFinder(all, links).find();
-}
-
-double unfinished_strain(const LoadPath& path, double h, int iterations, double gravity) {
-    const double edge = std::max(path.edge, 1e-9);
-    return 2.0 * gravity * h * h * path.levels * path.burden / (iterations * edge);
-}
-
-int believable_substeps(std::span<const LoadPath> paths, double dt, int iterations,
-                        double gravity) {
-    double substeps = dt / kLongestStep;
-    for (const LoadPath& path : paths) {
-        const double wanted = path.is_solid ? kStrainOfSolids / path.slender : kStrainOfCloth;
-        const double strain = unfinished_strain(path, dt, iterations, gravity);
-        substeps = std::max(substeps, std::sqrt(strain / wanted));
-    }
-    constexpr double kRounding = 1e-6;  // 0.016666667 is a sixtieth of a second
-    return static_cast<int>(
-        std::clamp(std::ceil(substeps - kRounding), 1.0, double{kMostSubsteps}));
+std::vector<LoadPath> load_paths(const Gathered& all, std::span<const Stencils> links,
+                                 Vec3 gravity) {
+    return PathFinder(all, links, gravity).find();
 }
 
 }  // namespace weft

@@ -20,21 +20,19 @@ struct LoadPath {
     bool is_solid = false;
     bool is_held = false;  ///< by pins
     double slender = 1.0;  ///< how many times as long as it is thick, of a solid that pins hold
+
+    // Of what bears its weight by bending, as pins hold it, solids or cloths alone; else 0.
+    /// How far a cantilever sags by 1 m/s^2 that reaches out from the pins as far: solids across
+    /// gravity, cloth along its path. In parts of that length [s^2/m].
+    double softness = 0.0;
+    /// What holds a vertex back from moving alone along gravity, over its mass, mean [1/s^2].
+    double firmness = 0.0;
 };
 
 /// One per connected part with an edge.
-/// links  pairs of vertices that elements join, besides the triangles' edges: attachments
-std::vector<LoadPath> load_paths(const Gathered& all, std::span<const Stencils> links);
-
-/// The strain (RMS) that unfinished sweeps leave, at least about: n sweeps are no stiffer than m n
-/// / (2 h^2) per edge, and the weight of all levels hangs on the last one: 2 g h^2 levels burden /
-/// (n edge). Measured: 1 to 2.5 times this (docs/scenes.md).
-/// h  the substep [s]; gravity  [m/s^2]
-double unfinished_strain(const LoadPath& path, double h, int iterations, double gravity);
-
-/// The number of substeps that keeps it at half a per cent (of solids, whose bending adds to it, at
-/// a fifth of that, and less the more slender they are), and a substep at 1/240 s or less.
-/// dt  the frame [s]
-int believable_substeps(std::span<const LoadPath> paths, double dt, int iterations, double gravity);
+/// links    pairs of vertices that elements join, besides the triangles' edges: attachments
+/// gravity  [m/s^2]; 0: nothing is borne by bending
+std::vector<LoadPath> load_paths(const Gathered& all, std::span<const Stencils> links,
+                                 Vec3 gravity = {});
 
 }  // namespace weft

@@ -9,8 +9,8 @@
 #include "runtime/tbb/parallel.h"
 #include "simulation/families/convert.h"
 #include "simulation/model/contact_thickness.h"
-#include "simulation/model/load_paths.h"
 #include "simulation/model/origin.h"
+#include "simulation/model/substeps.h"
 
 namespace weft {
 
@@ -48,77 +48,6 @@ std::vector<Stencils> kinds_of(const Gathered& all) {
     for (const auto& family : all.families) kinds.push_back(family->stencils());
     if (all.obstacle_triangles.count() > 0) kinds.push_back(all.obstacle_triangles);
     return kinds;
-}
-
-double strongest_gravity(const Scene& scene) {
-    double strongest = length(scene.gravity_keys.empty() ? scene.gravity : Vec3{});
-    for (const GravityKey& key : scene.gravity_keys) {
-        strongest = std::max(strongest, length(key.gravity));
-    }
-    return strongest;
-}
-
-std::vector<LoadPath> load_paths(const Gathered& all) {
-    std::vector<Stencils> links;
-    for (const auto& family : all.families) {
-        if (family->stencils().arity == 2) links.push_back(family->stencils());
-    }
-    return load_paths(all, links);
-}
-
-/// Iterations by how far they carry a correction: a step of conjugate gradients as far as a sweep.
-int carrying_iterations(const SolverSettings& solver) {
-    if (solver.method != Method::kNewton) return solver.iterations;
-    return solver.iterations * (solver.cg_steps + solver.sweeps);
-}
-
-/// What the scene's solver has to carry. Only xpbd feels what else hangs on a body: its constraints
-/// share by masses. Descent moves the heavy ones by their own equations, and light ones follow:
-/// seams of 1e4 times the mass left as little strain as those of equal ones, where it was tried.
-std::vector<LoadPath> paths_of(const Scene& scene, const Gathered& all) {
-    std::vector<LoadPath> paths = load_paths(all);
-    if (scene.solver.method == Method::kXpbd) return paths;
-    for (LoadPath& path : paths) path.burden = 1.0;
-    return paths;
-}
-
-/// Whether its weight is ever carried: what falls for ever is not stretched by it.
-bool bears(const LoadPath& path, const Scene& scene) {
-    return path.is_held || !scene.obstacles.empty() || scene.contact;
-}
-
-/// Something moves in every scene, if by pins alone: as if by this much gravity at least.
-int good_substeps(const Scene& scene, const std::vector<LoadPath>& paths) {
-    constexpr double kLeast = 1.0;  // [m/s^2]
-    return believable_substeps(paths, scene.dt, carrying_iterations(scene.solver),
-                               std::max(kLeast, strongest_gravity(scene)));
-}
-
-Scene with_substeps(Scene scene, const std::vector<LoadPath>& paths) {
-    if (scene.substeps == 0) scene.substeps = good_substeps(scene, paths);
-    return scene;
-}
-
-/// As many substeps as the scene needs where it does not say how many; where it says too few, a
-/// warning.
-Scene with_substeps(const Scene& given, const Gathered& all, Warnings& warnings) {
-    constexpr double kUnbelievable = 0.1;
-    const std::vector<LoadPath> paths = paths_of(given, all);
-    Scene scene = with_substeps(given, paths);
-    const double gravity = strongest_gravity(scene);
-    const int iterations = carrying_iterations(scene.solver);
-    for (const LoadPath& path : paths) {
-        const double strain =
-            unfinished_strain(path, scene.dt / scene.substeps, iterations, gravity);
-        if (strain < kUnbelievable || !bears(path, scene)) continue;
-        warnings.push_back(fmt::format(
-            "'{}' is too fine for scene.substeps = {} of {} iterations: they will leave it "
-            "stretched "
-            "by some {:.0f} %, whatever its stiffness; {} substeps would make that half a per cent",
-            path.body, scene.substeps, iterations, 100.0 * strain, good_substeps(scene, paths)));
-        break;
-    }
-    return scene;
 }
 
 /// The scene with all values that the file leaves out and the meshes say. warnings: null: it has
@@ -257,12 +186,6 @@ std::vector<BufferStorage*> Model::placed_buffers() {
         if (BufferStorage* buffer = family->placed_buffer()) buffers.push_back(buffer);
     }
     return buffers;
-}
-
-Scene with_substeps(const Scene& scene) {
-    if (scene.substeps > 0) return scene;
-    Warnings warnings;
-    return with_substeps(scene, paths_of(scene, gather(scene, warnings)));
 }
 
 }  // namespace weft

@@ -134,7 +134,4 @@ void Model::from_scene_order(std::span<const float> xyz, Rows&& rows) const {
     }
 }
 
-/// The scene with as many substeps as a model of it has. Reads its meshes where it leaves them out.
-Scene with_substeps(const Scene& scene);
-
 }  // namespace weft

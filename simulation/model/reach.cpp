@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace weft {
 
@@ -11,6 +12,10 @@ double reach_of(std::span<const float4> positions) {
         most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
     }
     return static_cast<double>(most);
+}
+
+double rounding_at(double reach) {
+    return 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
 }
 
 }  // namespace weft

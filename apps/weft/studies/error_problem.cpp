@@ -10,6 +10,7 @@
 #include "apps/weft/process/bytes.h"
 #include "apps/weft/process/child_process.h"
 #include "runtime/error.h"
+#include "simulation/model/substeps.h"
 
 namespace weft {
 

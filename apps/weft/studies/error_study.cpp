@@ -10,6 +10,7 @@
 #include "apps/weft/studies/start_state.h"
 #include "runtime/error.h"
 #include "simulation/families/convert.h"
+#include "simulation/model/substeps.h"
 #include "simulation/reference/minimum_cache.h"
 
 namespace weft {

@@ -36,6 +36,18 @@ public:
                                               is_nearly_flat);
     }
 
+    /// As of flat ones, which differ from these by how far they are folded.
+    void add_firmness(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
+                      std::span<double> firmness) const override {
+        for (int h = 0; h < stencils().count(); ++h) {
+            const auto& q = weights_[static_cast<std::size_t>(h)];
+            const std::array<double, 4> weights{-q[0] - q[1] - q[2], q[0], q[1], q[2]};
+            for (std::size_t k = 0; k < 4; ++k) {
+                firmness[static_cast<std::size_t>(stencils()[h][k])] += weights[k] * weights[k];
+            }
+        }
+    }
+
     std::vector<Absence> absences(const Scene& /*scene*/, bool exists) const override {
         if (exists) return {};
         return {{"curved bending", "no cloth with bending is folded at rest"}};

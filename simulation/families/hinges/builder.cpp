@@ -39,6 +39,18 @@ public:
         return std::make_unique<Hinges>(names(), stencils(), strips, weights_);
     }
 
+    /// A hinge at rest is as firm in every direction.
+    void add_firmness(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
+                      std::span<double> firmness) const override {
+        for (int h = 0; h < stencils().count(); ++h) {
+            const auto& weights = weights_[static_cast<std::size_t>(h)];
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto weight = static_cast<double>(weights[k]);
+                firmness[static_cast<std::size_t>(stencils()[h][k])] += weight * weight;
+            }
+        }
+    }
+
     std::vector<Absence> absences(const Scene& scene, bool exists) const override {
         if (exists) return {};
         const bool asked = std::ranges::any_of(

@@ -2,52 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/model/model.h"
 #include "simulation/scene/read_scene.h"
+#include "tests/simulation/model/load_path_scenes.h"
 
 namespace weft::test {
 namespace {
 
-const std::string kSheet = R"(
-[scene]
-frames = 1
-dt = 0.016666667
-[[cloth]]
-name = "sheet"
-grid = { size = [1.0, 2.0], resolution = [11, 21] }
-density = 0.2
-stretch = { stiffness = 1.0e3 }
-)";
-const std::string kPins = "pins = { box = [[-1.0, -1.0, -1.001], [1.0, 1.0, -0.999]] }\n";
-const std::string kBlock = R"(
-[[solid]]
-name = "block"
-grid = { size = [0.2, 0.2, 0.2], resolution = [3, 3, 3] }
-translate = [0.0, -0.1, 0.0]
-density = 1000.0
-young = 1.0e5
-poisson = 0.3
-)";
-const std::string kTies = R"(
-[[attachment]]
-a = "block"
-b = "sheet"
-faces = ["y+"]
-stiffness = 100.0
-)";
-
-std::vector<LoadPath> paths_of(const std::string& text, bool with_ties = false) {
+std::vector<LoadPath> paths_of(const std::string& text, bool with_ties = false, Vec3 gravity = {}) {
     Warnings warnings;
     const Gathered all = gather(parse_scene(text, "test.toml"), warnings);
     std::vector<Stencils> links;
     for (const auto& family : all.families) {
         if (with_ties && family->stencils().arity == 2) links.push_back(family->stencils());
     }
-    return load_paths(all, links);
-}
-
-Model model_of(const std::string& text, Warnings& warnings) {
-    return {parse_scene(text, "test.toml"), warnings};
+    return load_paths(all, links, gravity);
 }
 
 TEST(LoadPaths, RunFromTheFarthestVertexToThePins) {
@@ -85,114 +53,41 @@ TEST(LoadPaths, ThatAreHeldAllOverAreNotBurdened) {
     EXPECT_EQ(paths[0].burden, 1.0);
 }
 
-/// 1 m from its pins on, by edges of 0.1 m and diagonals; its volume is its surface times 0.0238 m.
+/// Its volume is its surface times 0.0238 m.
 TEST(LoadPaths, OfSolidsThatPinsHoldMayBeSlender) {
-    const std::string beam = R"(
-[scene]
-frames = 1
-dt = 0.02
-[[solid]]
-grid = { size = [1.0, 0.1, 0.1], resolution = [11, 2, 2] }
-density = 20.0
-young = 1.0e6
-poisson = 0.3
-)";
-    const auto held = paths_of(beam + "pins = { faces = [\"x-\"] }\n");
+    const auto held = paths_of(kBeam + "pins = { faces = [\"x-\"] }\n");
     ASSERT_EQ(held.size(), 1U);
     EXPECT_NEAR(held[0].slender, held[0].levels * held[0].edge / (4.0 * 0.01 / 0.42), 1e-6);
     EXPECT_GT(held[0].slender, 10.0);
-    EXPECT_EQ(paths_of(beam)[0].slender, 1.0);
+    EXPECT_EQ(paths_of(kBeam)[0].slender, 1.0);
     EXPECT_EQ(paths_of(kSheet + kPins)[0].slender, 1.0);
 }
 
-TEST(LoadPaths, StrainGrowsWithTheSquareOfTheStepAndFallsWithIterations) {
-    const LoadPath path{"sheet", 20.0, 0.1, 1.0, false, true};
-    const double strain = unfinished_strain(path, 0.01, 4, 10.0);
-    EXPECT_NEAR(strain, 0.1, 1e-12);
-    EXPECT_NEAR(unfinished_strain(path, 0.005, 4, 10.0), strain / 4.0, 1e-12);
-    EXPECT_NEAR(unfinished_strain(path, 0.01, 8, 10.0), strain / 2.0, 1e-12);
+TEST(LoadPaths, OfSolidsThatReachOutBearByBending) {
+    const std::string held = kBeam + "pins = { faces = [\"x-\"] }\n";
+    const Vec3 down{0.0, -9.81, 0.0};
+    const LoadPath path = paths_of(held, false, down)[0];
+    // 3/2 density length^3 / (young thickness^2), by the way that goes over diagonals at most.
+    const double thickness = 4.0 * 0.01 / 0.42;
+    EXPECT_NEAR(path.softness, 1.5 * 20.0 / (1.0e6 * thickness * thickness), 0.03 * path.softness);
+    EXPECT_GT(path.firmness, 1.0e6 / (20.0 * 0.1 * 0.1)) << "an edge's own, at least";
+    EXPECT_LT(path.firmness, 1.0e8 / (20.0 * 0.1 * 0.1));
+    EXPECT_LT(paths_of(held, false, {9.81, 0.0, 0.0})[0].softness, 0.01 * path.softness)
+        << "hangs down";
+    EXPECT_EQ(paths_of(kBeam, false, down)[0].firmness, 0.0) << "is not held";
+    EXPECT_EQ(paths_of(held)[0].firmness, 0.0) << "nothing pulls";
 }
 
-TEST(Substeps, LeftOutAreChosenForTheMesh) {
-    Warnings warnings;
-    const Model coarse = model_of(kSheet + kPins, warnings);
-    EXPECT_EQ(coarse.scene.substeps, 5);  // 0.0167 sqrt(2 * 9.81 * 20 / (8 * 0.114 * 0.005))
-    EXPECT_DOUBLE_EQ(coarse.h, coarse.scene.dt / 5);
-    Scene fine = parse_scene(kSheet + kPins, "test.toml");
-    std::get<GridShape>(fine.cloths[0].shape).resolution = {21, 41};
-    const Model model(fine, warnings);
-    EXPECT_EQ(model.scene.substeps, 10) << "in proportion to the resolution";
-    EXPECT_EQ(with_substeps(fine).substeps, model.scene.substeps);
-
-    fine.dt = 1e-9;
-    EXPECT_EQ(with_substeps(fine).substeps, 1);
-    EXPECT_TRUE(warnings.empty());
-}
-
-TEST(Substeps, AreNeverLongerThanAShortTime) {
-    Scene scene = parse_scene(kSheet, "test.toml");
-    scene.gravity = {};
-    Warnings warnings;
-    EXPECT_GE(Model(scene, warnings).scene.substeps, 4);
-}
-
-TEST(Substeps, ThatAreTooFewAreWarnedOf) {
-    Scene scene = parse_scene(kSheet + kPins, "test.toml");
-    scene.substeps = 1;
-    Warnings warnings;
-    const Model few(scene, warnings);
-    ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_NE(warnings[0].find("'sheet' is too fine for scene.substeps = 1 of 8 iterations"),
-              std::string::npos)
-        << warnings[0];
-    EXPECT_NE(warnings[0].find("5 substeps"), std::string::npos) << warnings[0];
-    EXPECT_EQ(few.scene.substeps, 1) << "what is asked for is done";
-    warnings.clear();
-    scene.substeps = 2;
-    const Model enough(scene, warnings);
-    EXPECT_TRUE(warnings.empty());
-}
-
-/// Where things weigh less, less is left undone.
-TEST(Substeps, AreWarnedOfByTheScenesOwnGravity) {
-    Warnings warnings;
-    const std::string one_step = "substeps = 1\n";
-    const auto with = [&](const std::string& gravity) {
-        std::string text = kSheet + kPins;
-        text.insert(text.find("[[cloth]]"), one_step + "gravity = " + gravity + "\n");
-        warnings.clear();
-        const Model model = model_of(text, warnings);
-        return !warnings.empty();
-    };
-    EXPECT_TRUE(with("[0.0, -98.1, 0.0]"));
-    EXPECT_FALSE(with("[0.0, -0.0981, 0.0]"));
-    EXPECT_FALSE(with("[0.0, 0.0, 0.0]"));
-}
-
-/// By their masses, xpbd's constraints move the light body; descent moves the heavy one by its own
-/// equations.
-TEST(Substeps, AreWarnedOfForBurdensOnlyByXpbd) {
-    Scene scene = parse_scene(kSheet + kPins + kBlock + kTies, "test.toml");
-    scene.substeps = 4;
-    for (const Method method : {Method::kXpbd, Method::kVbd, Method::kSosd, Method::kJpgd}) {
-        scene.solver.method = method;
-        Warnings warnings;
-        const Model model(scene, warnings);
-        EXPECT_EQ(warnings.size(), method == Method::kXpbd ? 1U : 0U) << name_of(method);
-    }
-}
-
-/// Nothing is stretched by its weight that only falls.
-TEST(Substeps, AreNotWarnedOfInFreeFall) {
-    Scene scene = parse_scene(kSheet, "test.toml");
-    scene.substeps = 1;
-    scene.solver.iterations = 1;
-    Warnings warnings;
-    const Model falls(scene, warnings);
-    EXPECT_TRUE(warnings.empty());
-    scene.contact = Contact{};
-    const Model may_land(scene, warnings);
-    EXPECT_EQ(warnings.size(), 1U);
+/// A strip of hinges a apart is held back from bending by 6 stiffness / (density a^4), but for its
+/// ends and diagonals.
+TEST(LoadPaths, OfClothMayBearByBending) {
+    const Vec3 down{0.0, -9.81, 0.0};
+    const LoadPath path = paths_of(kStrip, false, down)[0];
+    EXPECT_NEAR(path.softness, 0.1 * 0.95 * 0.95 * 0.95 / 8.0, 0.1 * path.softness);
+    const double along = 6.0 / (0.1 * 0.05 * 0.05 * 0.05 * 0.05);
+    EXPECT_GT(path.firmness, along);
+    EXPECT_LT(path.firmness, 15.0 * along);
+    EXPECT_EQ(paths_of(kSheet + kPins, false, down)[0].firmness, 0.0) << "has no bending";
 }
 
 }  // namespace
