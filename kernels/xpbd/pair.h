@@ -13,19 +13,22 @@ typedef struct {
 
 /// The changes of both multipliers: (G + A) d = -(C + A lambda), where G = grad C M^-1 grad C^T and
 /// A the diagonal matrix of both compliances, divided by h^2. One after the other, each constraint
-/// would undo what the other one needs; together, an element at rest stays at rest.
+/// would undo what the other one needs; together, an element at rest stays at rest. By elimination,
+/// not by determinants: entries grow with the fifth power of an element's smallness, and products
+/// of two of them overflow below a millimetre.
 ///
 /// g_11, g_12, g_22  G, positive semi-definite
 /// a_1, a_2          A, positive
 /// r_1, r_2          C + A lambda
 WEFT_INLINE real_pair solve_pair(real g_11, real g_12, real g_22, real a_1, real a_2, real r_1,
                                  real r_2) {
-    // Written out and clamped, det(G + A) is positive whatever the rounding of det G.
-    const real gram = larger(g_11 * g_22 - g_12 * g_12, splat(0.0f));
-    const real determinant = gram + g_11 * a_2 + g_22 * a_1 + a_1 * a_2;
-    const real inverse = splat(-1.0f) / determinant;
-    real_pair d = {(r_1 * (g_22 + a_2) - r_2 * g_12) * inverse,
-                   (r_2 * (g_11 + a_1) - r_1 * g_12) * inverse};
+    const real inverse = splat(1.0f) / (g_11 + a_1);
+    const real share = g_12 * inverse;
+    // det G >= 0, so the pivot is not below this and A's, whatever the rounding.
+    const real least = g_22 * (a_1 * inverse);
+    const real pivot = larger(g_22 - share * g_12, least) + a_2;
+    const real second = (share * r_1 - r_2) / pivot;
+    real_pair d = {-r_1 * inverse - share * second, second};
     return d;
 }
 

@@ -27,8 +27,8 @@ struct TestScene {
 
 const TestScene kScenes[] = {
     {"Everything", kEverything, Method::kXpbd, "4f0878c76cf04b3783d0431c625fa8d1"},
-    {"Solids", kSolids, Method::kXpbd, "af1bde7223d41abf5c09a61a217b4ee0"},
-    {"Sewn", kSewn, Method::kXpbd, "1d80823e05c1cf2d0236063db8cb22a1"},
+    {"Solids", kSolids, Method::kXpbd, "586ff816adc67f831018e00cfe739134"},
+    {"Sewn", kSewn, Method::kXpbd, "4ed99e22ba8e953aafb0b72917a1bf7c"},
     {"SpringsOnly", kSpringsOnly, Method::kXpbd, "877570edce90c2769df725c608bd8224"},
     {"Woven", kWoven, Method::kXpbd, "6ed8bf3030d2df371b10659664f00039"},
     {"VbdEverything", kEverything, Method::kVbd, "07f188ebd562defe764518a805c3b950"},
@@ -60,7 +60,7 @@ const TestScene kScenes[] = {
     {"NewtonSewn", kSewn, Method::kNewton, "6d8f26ed3a5fde89011b730bc461f1f6"},
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},
-    {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "926ed31061a372bd85d95119a5afde9d"},
+    {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "e3b5443f5fafb11fe112237e2523c804"},
     {"VbdNarrow", kNarrow, Method::kVbd, "51939b6a496f592b9508a8a83a31bc7f"},
     {"SosdNarrow", kNarrow, Method::kSosd, "2eb25948c378e1d834133b03fca99324"},
     {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "cf273dced58ab1375d9c1e5e25dd701c"},
