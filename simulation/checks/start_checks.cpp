@@ -8,6 +8,8 @@
 
 #include "simulation/checks/energy_account.h"
 #include "simulation/families/convert.h"
+#include "simulation/families/hinges/hinge_shape.h"
+#include "simulation/families/hinges/hinges.h"
 #include "simulation/model/reach.h"
 
 namespace weft {
@@ -153,6 +155,46 @@ void warn_of_rounding(const Model& model, Warnings& warnings) {
         reach, rounding, 100.0 * rounding / shortest, shortest));
 }
 
+/// Of a hinge that is folded shut, the bending of hinge.h pulls along the triangles, to neither
+/// side: an equilibrium, though an unstable one. From 179.9 degrees on, folds open.
+bool is_shut(const Model& model, const Hinges& hinges, int hinge) {
+    constexpr double kShut = 1e-4;  // cosine of half the fold: 180 degrees, less a hundredth
+    const auto vertices = hinges.corners(hinge);
+    HingeCorners x;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        x[k] = to_vec3((*model.positions)[static_cast<std::size_t>(vertices[k])]);
+    }
+    return half_fold(x).cosine < kShut;
+}
+
+std::size_t body_of_vertex(const Model& model, int v) {
+    const int in_scene = model.strips.order[static_cast<std::size_t>(v)];
+    const auto behind =
+        std::ranges::upper_bound(model.bodies, in_scene, {}, &BodyRange::first_vertex);
+    return static_cast<std::size_t>(behind - model.bodies.begin()) - 1;
+}
+
+void warn_of_shut_folds(const Model& model, Warnings& warnings) {
+    const Hinges* hinges = model.find<Hinges>();
+    const auto may_be_folded = [](const Cloth& cloth) {
+        const auto* file = std::get_if<MeshFile>(&cloth.shape);
+        const bool has_rest = file != nullptr && !file->rest.empty();
+        return cloth.bend && (cloth.bend->rest_is_flat || has_rest);
+    };
+    if (hinges == nullptr || std::ranges::none_of(model.scene.cloths, may_be_folded)) return;
+    std::vector<int> shut(model.bodies.size());
+    for (int h = 0; h < hinges->count(); ++h) {
+        if (is_shut(model, *hinges, h)) ++shut[body_of_vertex(model, hinges->corners(h)[0])];
+    }
+    for (std::size_t b = 0; b < shut.size(); ++b) {
+        if (shut[b] == 0) continue;
+        warnings.push_back(fmt::format(
+            "'{}' starts folded by 180 degrees over {} of its edges that are flat at rest: bending "
+            "opens such a fold to neither side; start it a tenth of a degree less folded",
+            model.bodies[b].name, shut[b]));
+    }
+}
+
 }  // namespace
 
 double energy_inside_obstacles(const Model& model) {
@@ -165,6 +207,7 @@ double energy_inside_obstacles(const Model& model) {
 
 void warn_of_start(const Model& model, Warnings& warnings) {
     warn_of_rounding(model, warnings);
+    warn_of_shut_folds(model, warnings);
     for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
         warn_of_inside(model, o, warnings);
         warn_of_turns(model, model.convex_obstacles[o], warnings);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "simulation/checks/start_checks.h"
 #include "simulation/families/convert.h"
 #include "simulation/families/curved_hinges/curved_hinges.h"
 #include "simulation/families/hinges/hinges.h"
@@ -71,6 +72,42 @@ double width(const ManualRun& run) {
     const auto x = positions(run);
     const int row = kAlong / 2 * kAcross;
     return length(at(x, row) - at(x, row + kAcross - 1));
+}
+
+/// A strip of 0.4 m that is folded in its middle, over four edges along z.
+std::string folded_strip(double degrees) {
+    const std::string path = testing::TempDir() + "folded_strip.obj";
+    std::ofstream file(path);
+    file.precision(17);
+    const double angle = degrees * std::numbers::pi / 180.0;
+    for (int k = 0; k < 5; ++k) {
+        const double z = 0.1 * k;
+        file << "v -0.2 0 " << z << "\nv 0 0 " << z << "\nv " << 0.2 * std::cos(angle) << ' '
+             << 0.2 * std::sin(angle) << ' ' << z << '\n';
+    }
+    for (int k = 0; k < 4; ++k) {
+        for (int a = 3 * k + 1; a < 3 * k + 3; ++a) {
+            file << "f " << a << ' ' << a + 3 << ' ' << a + 1 << '\n';
+            file << "f " << a + 1 << ' ' << a + 3 << ' ' << a + 4 << '\n';
+        }
+    }
+    return path;
+}
+
+TEST(FoldedShut, IsToldWhereRestIsFlat) {
+    for (const bool is_flat : {true, false}) {
+        for (const double degrees : {180.0, -180.0, 179.9, 90.0, 0.0}) {
+            Scene scene = tube_scene(Method::kVbd, folded_strip(degrees));
+            scene.cloths[0].bend->rest_is_flat = is_flat;
+            Warnings warnings;
+            warn_of_start(Model(scene, warnings), warnings);
+            const bool is_told = is_flat && std::abs(degrees) == 180.0;
+            ASSERT_EQ(warnings.size(), is_told ? 1U : 0U) << is_flat << ' ' << degrees;
+            if (!is_told) continue;
+            EXPECT_NE(warnings[0].find("by 180 degrees over 4 of its edges"), std::string::npos)
+                << warnings[0];
+        }
+    }
 }
 
 class CurvedRest : public EverySolver {};
