@@ -18,9 +18,9 @@ namespace weft {
 
 namespace {
 
-// Text lines: format, origin as JSON, frame, substeps and iterations, the account's bits, sizes of
-// the report and the buffers; then their bytes, then kEnd.
-constexpr const char* kFormat = "weft-checkpoint 5";
+// Text lines: format, origin as JSON, frame, substeps, iterations and what is known of the
+// tolerance, the account's bits, sizes of the report and the buffers; then their bytes, then kEnd.
+constexpr const char* kFormat = "weft-checkpoint 6";
 constexpr const char* kEnd = "end";
 
 template <class Bytes>
@@ -71,7 +71,7 @@ void write_checkpoint(const std::filesystem::path& path, const TextPairs& origin
                       const Checkpoint& checkpoint) {
     std::string head = std::string(kFormat) + '\n' + line_of(origin) + '\n';
     for (const int number : {checkpoint.frame, checkpoint.substeps, checkpoint.iterations,
-                             checkpoint.failed_iterations}) {
+                             checkpoint.failed_iterations, checkpoint.tolerance_told}) {
         head += std::to_string(number) + ' ';
     }
     head += '\n';
@@ -121,7 +121,7 @@ std::optional<Checkpoint> read(const std::filesystem::path& path, const TextPair
     };
     Checkpoint checkpoint;
     in >> checkpoint.frame >> checkpoint.substeps >> checkpoint.iterations >>
-        checkpoint.failed_iterations;
+        checkpoint.failed_iterations >> checkpoint.tolerance_told;
     for (double& value : checkpoint.account) {
         std::uint64_t bits = 0;
         in >> bits;

@@ -215,11 +215,13 @@ void FrameJudge::restart(double time) {
 
 void FrameJudge::resume(double time, const Checkpoint& checkpoint) {
     choice_.resume(checkpoint.failed_iterations);
+    tolerance_told_ = checkpoint.tolerance_told != 0;
     watch_.restart(live_.model(), time, checkpoint.account);
     if (samples_) samples_->resume(live_.model());
 }
 
 void FrameJudge::save(Checkpoint& checkpoint) const {
+    checkpoint.tolerance_told = tolerance_told_ ? 1 : 0;
     checkpoint.failed_iterations = choice_.failed_iterations();
     checkpoint.account = watch_.account().save();
 }

@@ -146,8 +146,12 @@ TEST(Tolerance, SaysWhatWouldReachIt) {
     while (better.frame() < followed.frames) frame = better.advance();
     EXPECT_LT(frame.relative_error, 2.0 * 0.05);
 
+    Simulation resumed = simulation_of(scene);
+    resumed.resume(simulation.checkpoint());
     while (simulation.frame() < scene.frames) simulation.advance();
     EXPECT_EQ(simulation.troubles().size(), 1U) << "it is said once";
+    while (resumed.frame() < scene.frames) resumed.advance();
+    EXPECT_TRUE(resumed.troubles().empty()) << "by whoever goes on, too";
 }
 
 }  // namespace
