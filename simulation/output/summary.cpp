@@ -168,6 +168,7 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["files"] = files;
     json["command"] = summary.command;
     json["settings"] = pairs_json(summary.settings);
+    json["made_from"] = summary.made_from;
     json["host"] = pairs_json(summary.host);
     json["versions"] = pairs_json(summary.versions);
     return json;

@@ -71,6 +71,7 @@ struct RunSummary {
     std::vector<std::string> losses;    ///< devices that failed in mid-run, and why
     bool finished = false;              ///< all frames of the scene are done
     std::string state_hash;             ///< after the last frame; empty: not known
+    TextPairs made_from;                ///< what the results depend on, by name; in this order
     std::vector<std::pair<std::string, std::string>> files;  ///< what, and its path
 };
 

@@ -327,9 +327,20 @@ motion = { frames = "part.h5" }
     expect_whole_run(folder)
 
 
-def test_finished_run_does_not_go_on(folder):
-    assert run(folder, "--frames", "2").returncode == 0
-    expect_error(run(folder, "--resume", "--frames", "2"), 2, "out/sheet", "finished run")
+def test_finished_run_is_left_as_it_is(folder):
+    assert run(folder, "--frames", "2", "--no-geometry").returncode == 0
+    files = sorted((folder / "out/sheet").iterdir())
+    before = [(file.read_bytes(), file.stat().st_mtime_ns) for file in files]
+    again = weft("run", "scene.toml", "--device", "cpu/1", "--frames", "2", "--no-geometry",
+                 "--resume", "--json", cwd=folder)
+    assert again.returncode == 0
+    assert "out/sheet: the run there is done" in again.stderr
+    assert json.loads(again.stdout) == summary_of(folder)
+    for other in (["--frames", "3", "--no-geometry"], ["--frames", "2"],
+                  ["--frames", "2", "--no-geometry", "--iterations", "3"]):
+        expect_error(run(folder, "--resume", *other), 2, "out/sheet", "finished run", "--force")
+    assert sorted((folder / "out/sheet").iterdir()) == files
+    assert [(file.read_bytes(), file.stat().st_mtime_ns) for file in files] == before
 
 
 def test_damaged_checkpoint(folder):

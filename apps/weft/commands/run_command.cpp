@@ -18,6 +18,14 @@ namespace {
 void run_scene(const RunOptions& options, bool keeps_checkpoint) {
     const InterruptNotice notice;
     SceneRun run(options, keeps_checkpoint);
+    if (run.done()) {
+        if (!options.quiet) {
+            std::cerr << fmt::format("weft: {}: the run there is done, there is nothing to do\n",
+                                     run.folder().path().string());
+        }
+        if (options.json) std::cout << *run.done() << std::flush;
+        return;
+    }
     run.advance_all(notice);
     const RunSummary summary = run.finish();
     if (options.json)
@@ -48,7 +56,7 @@ void add_run_command(CLI::App& app) {
         "Exit codes: 0 done; 1 the run failed, everything before is on disk; 2 the request was\n"
         "wrong; 128 + signal: stopped by SIGINT, SIGTERM, SIGHUP or SIGUSR1 after a whole frame\n"
         "(only a second SIGINT stops at once). A run that was stopped or killed goes on with\n"
-        "--resume, and ends as if nothing had happened.\n\n"
+        "--resume, and ends as if nothing had happened; one that is done is left as it is.\n\n"
         "Examples:\n"
         "  weft run scenes/tablecloth.toml\n"
         "  weft run scenes/flag.toml --device cpu/1+opencl:0/1 --set scene.size=40000 --out "

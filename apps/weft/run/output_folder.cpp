@@ -95,15 +95,19 @@ OutputFolder::OutputFolder(fs::path path, EarlierOutput earlier) : path_(std::mo
 /// time.
 void OutputFolder::refuse_to_replace(EarlierOutput earlier) const {
     if (earlier == EarlierOutput::kReplace) return;
-    if (is_finished(summary())) {
-        refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
-    }
+    if (earlier == EarlierOutput::kKeep && has_finished()) refuse_finished();
     if (earlier == EarlierOutput::kKeep && fs::exists(checkpoint())) {
         check_that_nobody_writes(path_);
         refuse(path_,
                "a run that did not finish is there; --resume goes on with it, --force overwrites "
                "it, another --out keeps it");
     }
+}
+
+bool OutputFolder::has_finished() const { return is_finished(summary()); }
+
+void OutputFolder::refuse_finished() const {
+    refuse(path_, "a finished run is there; --force overwrites it, another --out keeps it");
 }
 
 std::string OutputFolder::unfinished_scene() const {

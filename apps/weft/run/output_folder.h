@@ -13,8 +13,9 @@ enum class EarlierOutput { kKeep, kResume, kReplace };
 class OutputFolder {
 public:
     /// Looks, and touches nothing yet, so that a wrong request leaves no trace. Throws UserError if
-    /// a run is there that is not to be replaced (a finished one, or, if it is to be kept, one that
-    /// has left a checkpoint to go on from), or if the folder cannot be made or written.
+    /// a run is there that is not to be replaced (a finished one, unless it is to go on, or, if it
+    /// is to be kept, one that has left a checkpoint to go on from), or if the folder cannot be
+    /// made or written.
     OutputFolder(std::filesystem::path path, EarlierOutput earlier);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
@@ -31,6 +32,8 @@ public:
     /// Where a file of the run before is while it is being taken over.
     static std::filesystem::path before(const std::filesystem::path& file);
 
+    bool has_finished() const;
+    [[noreturn]] void refuse_finished() const;
     bool replaces_unfinished() const { return replaces_unfinished_; }
     /// Name of the scene whose unfinished run claim() would take away; empty: none, or not known.
     std::string unfinished_scene() const;

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
 #include "runtime/io/cache_folder.h"
 #include "simulation/run_description.h"
 #include "simulation/solver/async_iterates.h"
@@ -47,6 +51,20 @@ TextPairs run_origin(TextPairs request, const RunOptions& options, const TextPai
     request.emplace_back("place that positions count from", origin_setting(simulation.model()));
     add_async(simulation, options, request);
     return request;
+}
+
+std::optional<FinishedRun> read_finished(const std::filesystem::path& summary) {
+    std::ifstream stream(summary, std::ios::binary);
+    FinishedRun run;
+    run.text = std::string(std::istreambuf_iterator<char>(stream), {});
+    try {
+        const auto json = nlohmann::json::parse(run.text);
+        run.made_from = json.at("made_from").get<TextPairs>();
+        run.frames = json.at("frames").get<int>();
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+    return run;
 }
 
 }  // namespace weft

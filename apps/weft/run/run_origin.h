@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
+
 #include "apps/weft/run/run_options.h"
 #include "runtime/trace/records.h"
 
@@ -14,5 +17,14 @@ TextPairs request_parts(const RunOptions& options, const Scene& scene);
 /// meshes   their hashes, as in the run's description
 TextPairs run_origin(TextPairs request, const RunOptions& options, const TextPairs& meshes,
                      const Simulation& simulation);
+
+/// What a finished run has left in its summary, as far as it says whether it is the one asked for.
+struct FinishedRun {
+    TextPairs made_from;
+    int frames = 0;
+    std::string text;  ///< the whole summary, as JSON
+};
+/// None: the summary does not say it.
+std::optional<FinishedRun> read_finished(const std::filesystem::path& summary);
 
 }  // namespace weft

@@ -40,10 +40,16 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
       origin_(request_parts(options, scene_)),
       folder_(options.folder_for(scene_.name), earlier_output(options)) {
     if (!options.no_geometry) check_geometry_states(scene_, options.scene);
+    const std::optional<FinishedRun> finished = find_finished();
     settle_solver();
     set_up();
     RunDescription description = describe();
     origin_ = run_origin(std::move(origin_), options_, description.meshes, *simulation_);
+    if (finished) {
+        if (finished->made_from != origin_) folder_.refuse_finished();
+        done_ = finished->text;
+        return;
+    }
     if (options_.resume) find_earlier(description);
     if (!earlier_) warn_of_other_scene();
     description.warnings = all_warnings();
@@ -53,6 +59,18 @@ SceneRun::SceneRun(const RunOptions& options, bool keeps_checkpoint)
     if (!options_.no_geometry) open_geometry();
     if (earlier_) take_over();
     last_checkpoint_ = now();
+}
+
+/// A run that is whole, of as many frames and with the outputs that are asked for; whether it is of
+/// the same scene is not known yet.
+std::optional<FinishedRun> SceneRun::find_finished() const {
+    if (!options_.resume || !folder_.has_finished()) return std::nullopt;
+    auto run = read_finished(folder_.summary());
+    const bool is_whole = run && run->frames == scene_.frames &&
+                          (options_.no_trace || std::filesystem::exists(folder_.trace())) &&
+                          (options_.no_geometry || std::filesystem::exists(folder_.geometry()));
+    if (!is_whole) folder_.refuse_finished();
+    return run;
 }
 
 void SceneRun::settle_solver() {
@@ -289,6 +307,7 @@ RunSummary SceneRun::finish() {
     summary.warnings.insert(summary.warnings.begin(), more.begin(), more.end());
     summary.finished = frames_done() == scene_.frames;
     summary.state_hash = simulation_->hash();
+    summary.made_from = origin_;
     if (trace_) {
         if (summary.finished) trace_->finish(summary.state_hash);
         trace_.reset();

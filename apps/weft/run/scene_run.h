@@ -7,6 +7,7 @@
 #include "apps/weft/run/output_folder.h"
 #include "apps/weft/run/run_geometry.h"
 #include "apps/weft/run/run_options.h"
+#include "apps/weft/run/run_origin.h"
 #include "simulation/simulation.h"
 
 namespace weft {
@@ -17,6 +18,10 @@ public:
     /// Sets everything up, and claims the output folder. keeps_checkpoint: the one of the end,
     /// which a finished run leaves nobody otherwise. Throws UserError, RunError.
     explicit SceneRun(const RunOptions& options, bool keeps_checkpoint = false);
+
+    /// A run that was to go on and is whole: its summary, as JSON. There is nothing to do then, and
+    /// nothing was touched.
+    const std::optional<std::string>& done() const { return done_; }
 
     /// Simulates to the end, or to the frame in which a signal came. Throws RunError; every frame
     /// before is on disk then.
@@ -31,6 +36,7 @@ public:
     Warnings all_warnings() const;
 
 private:
+    std::optional<FinishedRun> find_finished() const;
     void settle_solver();
     RunDescription describe() const;
     void set_up();
@@ -60,6 +66,7 @@ private:
     std::optional<SummaryBuilder> summary_;
     std::optional<TraceWriter> trace_;
     std::optional<RunGeometry> geometry_;
+    std::optional<std::string> done_;
     std::string convergence_;  ///< how far steps are solved, as last estimated
     std::size_t losses_said_ = 0;
     std::size_t troubles_said_ = 0;
