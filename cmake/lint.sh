@@ -51,9 +51,10 @@ simulation/families  kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|b
 simulation/model     kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model)
 simulation/contact   kernels|scheduler/assert.h|runtime|simulation/(mesh|scene|topology|families|model|solver|contact)
 simulation/solver    kernels|scheduler/(assert|exchange_map).h|runtime|simulation/(mesh|scene|topology|families|model|contact|solver)
-simulation/checks    kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model|contact|solver|checks|diagnostics.h|state.h)
+simulation/state     runtime|simulation/(families/convert.h|model|solver|output/(checkpoint|state_hash).h|state)
+simulation/checks    kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model|contact|solver|state|checks)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|contact|reference)
-simulation/run       kernels|scheduler/plan.h|runtime|simulation/(mesh|scene|model|contact|solver|checks|output|run|state.h|tolerance_advice.h)
+simulation/run       kernels|scheduler/plan.h|runtime|simulation/(mesh|scene|model|contact|solver|state|checks|output|run|tolerance_advice.h)
 simulation/output    scheduler/order_statistics.h|runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps
 weft       kernels|scheduler|runtime|simulation

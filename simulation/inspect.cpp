@@ -6,9 +6,9 @@
 
 #include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
-#include "simulation/diagnostics.h"
 #include "simulation/families/builder.h"
 #include "simulation/scene/obstacle_shapes.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "simulation/bodies/mesh_files.h"
-#include "simulation/diagnostics.h"
 #include "simulation/solver/async_iterates.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

@@ -6,7 +6,7 @@
 #include "runtime/executor.h"
 #include "runtime/tbb/cpu_device.h"
 #include "simulation/contact/response.h"
-#include "simulation/diagnostics.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

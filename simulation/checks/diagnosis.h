@@ -2,7 +2,7 @@
 
 #include "simulation/checks/watch.h"
 #include "simulation/solver/solver.h"
-#include "simulation/state.h"
+#include "simulation/state/simulation_state.h"
 
 namespace weft {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "simulation/checks/outside_work.h"
-#include "simulation/diagnostics.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

@@ -9,8 +9,8 @@
 
 #include "runtime/tbb/parallel.h"
 #include "simulation/checks/pin_work.h"
-#include "simulation/diagnostics.h"
 #include "simulation/families/convert.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

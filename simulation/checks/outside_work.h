@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation/state.h"
+#include "simulation/state/simulation_state.h"
 
 namespace weft {
 

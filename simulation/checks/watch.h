@@ -8,7 +8,7 @@
 #include "simulation/checks/body_accounts.h"
 #include "simulation/checks/energy_account.h"
 #include "simulation/contact/energy.h"
-#include "simulation/state.h"
+#include "simulation/state/simulation_state.h"
 
 namespace weft {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "runtime/planning/planned_executor.h"
-#include "simulation/run/snapshots.h"
 #include "simulation/run/step_choice.h"
 #include "simulation/solver/solver.h"
+#include "simulation/state/snapshots.h"
 
 namespace weft {
 

@@ -13,9 +13,9 @@
 #include "runtime/error.h"
 #include "runtime/io/json_text.h"
 #include "runtime/io/system_call.h"
-#include "simulation/diagnostics.h"
 #include "simulation/simulation.h"
 #include "simulation/solver/async_iterates.h"
+#include "simulation/state/diagnostics.h"
 
 namespace weft {
 

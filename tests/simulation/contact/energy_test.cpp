@@ -10,10 +10,10 @@
 #include "runtime/error.h"
 #include "simulation/contact/response.h"
 #include "simulation/contact/stiffness.h"
-#include "simulation/diagnostics.h"
 #include "simulation/scene/method.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "simulation/state/diagnostics.h"
 #include "tests/simulation/run/manual_run.h"
 
 namespace weft::test {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "simulation/checks/body_accounts.h"
-#include "simulation/diagnostics.h"
 #include "simulation/scene/read_scene.h"
+#include "simulation/state/diagnostics.h"
 #include "tests/simulation/run/manual_run.h"
 #include "tests/simulation/run/one_plan.h"
 

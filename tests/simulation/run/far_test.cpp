@@ -10,10 +10,10 @@
 #include <regex>
 
 #include "simulation/cloth_scene.h"
-#include "simulation/diagnostics.h"
 #include "simulation/reference/fine_run.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "simulation/state/diagnostics.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {

@@ -6,12 +6,12 @@
 #include <set>
 
 #include "runtime/error.h"
-#include "simulation/diagnostics.h"
 #include "simulation/families/convert.h"
 #include "simulation/families/stitches/stitches.h"
 #include "simulation/reference/incremental_potential.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"
+#include "simulation/state/diagnostics.h"
 #include "tests/simulation/run/one_plan.h"
 #include "tests/simulation/run/physics.h"
 

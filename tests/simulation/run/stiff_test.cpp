@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/diagnostics.h"
 #include "simulation/scene/read_scene.h"
+#include "simulation/state/diagnostics.h"
 #include "tests/simulation/run/physics.h"
 
 namespace weft::test {

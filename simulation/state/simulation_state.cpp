@@ -1,4 +1,4 @@
-#include "simulation/state.h"
+#include "simulation/state/simulation_state.h"
 
 #include <algorithm>
 #include <span>

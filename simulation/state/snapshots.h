@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "simulation/state.h"
+#include "simulation/state/simulation_state.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/run/snapshots.h"
+#include "simulation/state/snapshots.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "simulation/diagnostics.h"
+#include "simulation/state/diagnostics.h"
 
 #include <fmt/format.h>
 
