@@ -7,16 +7,16 @@
 #include "runtime/opencl/opencl_device.h"
 #include "runtime/tbb/parallel.h"
 #include "runtime/unused_memory.h"
-#include "simulation/async_choice.h"
 #include "simulation/checks/diagnosis.h"
 #include "simulation/checks/start_checks.h"
+#include "simulation/choice/async_choice.h"
+#include "simulation/choice/solver_choice.h"
 #include "simulation/contact/frozen.h"
 #include "simulation/run/frame_judge.h"
 #include "simulation/run/frame_runner.h"
 #include "simulation/run_description.h"
 #include "simulation/run_solver.h"
 #include "simulation/scene/auto_method.h"
-#include "simulation/solver_choice.h"
 
 namespace weft {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "simulation/choice/tolerance_advice.h"
 #include "simulation/contact/response.h"
 #include "simulation/run/live_model.h"
-#include "simulation/tolerance_advice.h"
 
 namespace weft {
 

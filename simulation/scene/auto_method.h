@@ -6,7 +6,7 @@
 
 namespace weft {
 
-/// What stands in a scene for whichever solver serves it best (simulation/solver_choice.h).
+/// What stands in a scene for whichever solver serves it best (simulation/choice/solver_choice.h).
 inline constexpr const char* kAutoMethod = "auto";
 
 /// What such a scene says of its solver.

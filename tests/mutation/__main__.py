@@ -28,7 +28,8 @@ GROUPS = {
                   ["trials", "task_graph", "cost_model", "plan_adaptations", "exchange_map",
                    "planners", "plan_allocations"]),
     "topology": ("simulation/topology/*.cpp", ["topology"]),
-    "planning": ("runtime/planning/*.cpp", ["planning", "library", "async_choice", "device_loss"]),
+    "planning": ("runtime/planning/*.cpp",
+                 ["planning", "library", "async_choice", "async_convergence", "device_loss"]),
     "runtime": ("runtime/*.cpp", ["runtime", "executor", "device_loss", "library"]),
 }
 MEMORY = 4 << 30  # bytes; a loop without an end may ask for all there is

@@ -17,8 +17,8 @@
 #include "apps/weft/timing/comparison.h"
 #include "runtime/device_list.h"
 #include "runtime/io/json_text.h"
+#include "simulation/choice/solver_choice.h"
 #include "simulation/scene/auto_method.h"
-#include "simulation/solver_choice.h"
 
 namespace weft {
 

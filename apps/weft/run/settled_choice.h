@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "apps/weft/run/run_options.h"
-#include "simulation/solver_choice.h"
+#include "simulation/choice/solver_choice.h"
 
 namespace weft {
 

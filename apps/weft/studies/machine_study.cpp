@@ -12,8 +12,8 @@
 #include "apps/weft/trace/recorded_scene.h"
 #include "runtime/error.h"
 #include "runtime/trace/recorded_graph.h"
-#include "simulation/async_loss.h"
-#include "simulation/machine_forecast.h"
+#include "simulation/choice/async_loss.h"
+#include "simulation/choice/machine_forecast.h"
 #include "simulation/simulation.h"
 #include "simulation/solver/async_iterates.h"
 

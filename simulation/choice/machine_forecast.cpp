@@ -1,4 +1,4 @@
-#include "simulation/machine_forecast.h"
+#include "simulation/choice/machine_forecast.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "simulation/async_offer.h"
+#include "simulation/choice/async_offer.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "runtime/planning/kind_costs.h"
 #include "runtime/tbb/cpu_device.h"
-#include "simulation/async_loss.h"
-#include "simulation/machine_forecast.h"
+#include "simulation/choice/async_loss.h"
+#include "simulation/choice/machine_forecast.h"
 #include "simulation/model/model.h"
 #include "simulation/simulation.h"
 #include "simulation/solver/async_iterates.h"

@@ -1,8 +1,8 @@
-#include "simulation/async_choice.h"
+#include "simulation/choice/async_choice.h"
 
 #include <fmt/format.h>
 
-#include "simulation/async_offer.h"
+#include "simulation/choice/async_offer.h"
 #include "simulation/scene/method.h"
 
 namespace weft {

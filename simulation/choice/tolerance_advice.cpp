@@ -1,4 +1,4 @@
-#include "simulation/tolerance_advice.h"
+#include "simulation/choice/tolerance_advice.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulation/step_trials.h"
+#include "simulation/choice/step_trials.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/solver_choice.h"
+#include "simulation/choice/solver_choice.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "runtime/error.h"
+#include "simulation/choice/step_trials.h"
 #include "simulation/model/substeps.h"
 #include "simulation/scene/auto_method.h"
 #include "simulation/scene/solver_limits.h"
 #include "simulation/simulation.h"
-#include "simulation/step_trials.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/step_trials.h"
+#include "simulation/choice/step_trials.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "runtime/tbb/cpu_device.h"
-#include "simulation/async_loss.h"
-#include "simulation/async_offer.h"
-#include "simulation/machine_forecast.h"
+#include "simulation/choice/async_loss.h"
+#include "simulation/choice/async_offer.h"
+#include "simulation/choice/machine_forecast.h"
 #include "simulation/replay.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/simulation.h"

@@ -1,4 +1,4 @@
-#include "simulation/async_loss.h"
+#include "simulation/choice/async_loss.h"
 
 #include <algorithm>
 #include <cmath>
