@@ -54,6 +54,7 @@ simulation/solver    kernels|scheduler/(assert|exchange_map).h|runtime|simulatio
 simulation/state     runtime|simulation/(families/convert.h|model|solver|output/(checkpoint|state_hash).h|state)
 simulation/checks    kernels|runtime|simulation/(mesh|scene|bodies|topology|families|model|contact|solver|state|checks)
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|contact|reference)
+simulation/description runtime|simulation/(scene|bodies|families|model|solver|state|description)
 simulation/run       kernels|scheduler/plan.h|runtime|simulation/(mesh|scene|model|contact|solver|state|checks|output|run|choice/tolerance_advice.h)
 simulation/choice    scheduler/(in_order|timetable).h|runtime|simulation/(scene|model|solver|checks|run|choice|simulation(_options)?.h)
 simulation/output    scheduler/order_statistics.h|runtime|simulation/(reference|output)

@@ -12,9 +12,9 @@
 #include "simulation/choice/async_choice.h"
 #include "simulation/choice/solver_choice.h"
 #include "simulation/contact/frozen.h"
+#include "simulation/description/run_description.h"
 #include "simulation/run/frame_judge.h"
 #include "simulation/run/frame_runner.h"
-#include "simulation/run_description.h"
 #include "simulation/run_solver.h"
 #include "simulation/scene/auto_method.h"
 

@@ -10,7 +10,7 @@
 #include "apps/weft/commands/commands.h"
 #include "apps/weft/output/warnings.h"
 #include "runtime/io/json_text.h"
-#include "simulation/inspect.h"
+#include "simulation/description/inspect.h"
 #include "simulation/scene/auto_method.h"
 
 namespace weft {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/io/cache_folder.h"
-#include "simulation/run_description.h"
+#include "simulation/description/run_description.h"
 #include "simulation/solver/async_iterates.h"
 
 namespace weft {

@@ -6,7 +6,7 @@
 
 #include "apps/weft/command_line/typed_line.h"
 #include "runtime/trace/host_info.h"
-#include "simulation/versions.h"
+#include "simulation/description/versions.h"
 
 namespace weft {
 

@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "runtime/error.h"
+#include "simulation/description/run_description.h"
 #include "simulation/output/any_checkpoint.h"
 #include "simulation/output/geometry_reader.h"
-#include "simulation/run_description.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/run_description.h"
+#include "simulation/description/run_description.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "simulation/inspect.h"
+#include "simulation/description/inspect.h"
 
 #include <algorithm>
 #include <functional>

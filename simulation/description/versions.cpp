@@ -1,4 +1,4 @@
-#include "simulation/versions.h"
+#include "simulation/description/versions.h"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
