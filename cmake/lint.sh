@@ -56,7 +56,7 @@ simulation/checks    kernels|runtime|simulation/(mesh|scene|bodies|topology|fami
 simulation/reference kernels|runtime|simulation/(mesh|scene|topology|families|model|contact|reference)
 simulation/description runtime|simulation/(scene|bodies|families|model|solver|state|description)
 simulation/run       kernels|scheduler/plan.h|runtime|simulation/(mesh|scene|model|contact|solver|state|checks|output|run|choice/tolerance_advice.h)
-simulation/choice    scheduler/(in_order|timetable).h|runtime|simulation/(scene|model|solver|checks|run|choice|simulation(_options)?.h)
+simulation/choice    scheduler/(in_order|timetable).h|runtime|simulation/(scene|model|solver|checks|run|choice|simulation.h)
 simulation/output    scheduler/order_statistics.h|runtime|simulation/(reference|output)
 apps       kernels|scheduler|runtime|simulation|apps
 weft       kernels|scheduler|runtime|simulation

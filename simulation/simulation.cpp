@@ -15,7 +15,7 @@
 #include "simulation/description/run_description.h"
 #include "simulation/run/frame_judge.h"
 #include "simulation/run/frame_runner.h"
-#include "simulation/run_solver.h"
+#include "simulation/run/solver_maker.h"
 #include "simulation/scene/auto_method.h"
 
 namespace weft {

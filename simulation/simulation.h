@@ -9,8 +9,8 @@
 #include "runtime/trace/records.h"
 #include "scheduler/plan.h"
 #include "simulation/run/live_model.h"
+#include "simulation/run/simulation_options.h"
 #include "simulation/run/troubles.h"
-#include "simulation/simulation_options.h"
 
 namespace weft {
 

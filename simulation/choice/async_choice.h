@@ -4,7 +4,7 @@
 #include <string>
 
 #include "simulation/run/live_model.h"
-#include "simulation/simulation_options.h"
+#include "simulation/run/simulation_options.h"
 
 namespace weft {
 

@@ -1,4 +1,4 @@
-#include "simulation/run_solver.h"
+#include "simulation/run/solver_maker.h"
 
 #include <algorithm>
 #include <memory>

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "simulation/run/live_model.h"
-#include "simulation/simulation_options.h"
+#include "simulation/run/simulation_options.h"
 
 namespace weft {
 
