@@ -65,7 +65,7 @@ std::optional<Alarm> InsideChecks::look(const Model& model, ContactResponse& con
     return look(model, depth_of, "",
                 fmt::format("contact lets them go no farther in a substep: some {} substeps would "
                             "do (docs/contact.md)",
-                            contact.substeps_wanted()));
+                            contact.account().substeps_wanted()));
 }
 
 /// Where more than half of what the obstacle is wide is in a triangle, the other side is near.

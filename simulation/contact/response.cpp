@@ -1,9 +1,6 @@
 #include "simulation/contact/response.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -26,14 +23,8 @@ namespace {
 
 // In parts of the thickness.
 constexpr float kMargin = 0.25f;  ///< by which vertices may go farther than inertia leads them
-// In parts of the least distance.
-constexpr float kSoftSlack = 0.5f;
-constexpr float kHardSlack = 0.125f;
 
 constexpr double kCreepSpeed = 1e-3;  ///< below which friction sticks [m/s]
-
-constexpr float kNothing = 1e-12f;  ///< distances up to this are 0 [m]; kernels/contact/fill.h
-constexpr float kFar = 1e29f;       ///< distances beyond this are none [m]; likewise
 
 // Of a row.
 constexpr int kFirstPairs = 8;
@@ -50,22 +41,6 @@ int first_room(const Model& model, std::size_t bytes) {
 double creep_of(const Model& model) {
     constexpr double kUlp = std::numeric_limits<float>::epsilon();
     return std::max(kCreepSpeed * model.h, 4.0 * kUlp * reach_of(model.positions->span()));
-}
-
-template <class T>
-void copy(const std::vector<T>& from, Buffer<T>& to) {
-    std::ranges::copy(from, to.data());
-}
-
-/// As columns of a table, in the model's vertices.
-template <std::size_t N>
-void fill_columns(const std::vector<std::array<int, N>>& items, const Surface& surface,
-                  Buffer<int>& table) {
-    for (std::size_t k = 0; k < N; ++k) {
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            table[k * items.size() + i] = surface.vertices[static_cast<std::size_t>(items[i][k])];
-        }
-    }
 }
 
 std::size_t strips_of(const Model& model) { return static_cast<std::size_t>(model.strips.count()); }
@@ -87,23 +62,6 @@ std::vector<float> quiet_of_vertices(const Surface& surface, const Buffer<float>
 }
 
 }  // namespace
-
-ContactResponse::Incidence::Incidence(const Surface& s)
-    : apexes("contact.apexes", s.vertices.size()),
-      triangle_begin("contact.triangle_begin", s.triangles_at.begin.size()),
-      triangle_list("contact.triangle_list", s.triangles_at.items.size()),
-      edge_begin("contact.edge_begin", s.edges_at.begin.size()),
-      edge_list("contact.edge_list", s.edges_at.items.size()),
-      triangles("contact.triangles", 3 * s.triangles.size()),
-      edges("contact.edges", 2 * s.edges.size()) {
-    copy(s.vertices, apexes);
-    copy(s.triangles_at.begin, triangle_begin);
-    copy(s.triangles_at.items, triangle_list);
-    copy(s.edges_at.begin, edge_begin);
-    copy(s.edges_at.items, edge_list);
-    fill_columns(s.triangles, s, triangles);
-    fill_columns(s.edges, s, edges);
-}
 
 std::unique_ptr<ContactResponse> ContactResponse::of(Model& model, int first_kind) {
     if (!model.scene.contact || model.triangles.empty()) return nullptr;
@@ -132,11 +90,9 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       touching_("contact.touching", strips_of(model)),
       meeting_("contact.meeting", strips_of(model)),
       filling_("contact.filling", strips_of(model)),
-      apart_("contact.apart", strips_of(model)),
       fill_kind_(first_kind + static_cast<int>(ContactPairs::kinds().size())),
-      planes_table_("contact.planes", model.vertices(), first_room(model, sizeof(float4))),
+      truncation_(model, first_room(model, sizeof(float4)), floor_, anchors_, touching_),
       contacts_("contact.contacts", model.vertices(), first_room(model, 5 * sizeof(float4))),
-      planes_(planes_table_.add_column<float4>("planes")),
       corner0_(contacts_.add_column<int>("corner0")),
       corner1_(contacts_.add_column<int>("corner1")),
       corner2_(contacts_.add_column<int>("corner2")),
@@ -146,19 +102,13 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       measures_(contacts_.add_column<float4>("measures")),
       slips_(friction_ > 0.0f ? contacts_.add_column<float4>("slips") : normals_),
       sticking_(friction_ > 0.0f ? std::make_unique<Sticking>(model, rows(), rubbing()) : nullptr),
-      least_("contact.least", model.positions->count()),
-      nearest_("contact.nearest", model.positions->count()),
-      cut_("contact.cut", model.positions->count()),
-      cut_counts_("contact.cut_counts", 2 * model.positions->count()),
-      cut_ways_("contact.cut_ways", model.positions->count()),
+      account_(model, range_),
       insides_(model.obstacles ? std::make_unique<Insides>(model) : nullptr),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), sticking_.get(), fill_kind_ + 1) {
-    // Inside of bodies there is nothing to be filled.
-    std::ranges::fill(least_.span(), WEFT_NO_PLANE);
-    std::ranges::fill(nearest_.span(), WEFT_NO_PLANE);
-    copy(contact_stiffness(model), stiffness_);
-    copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()), quiet_);
+    std::ranges::copy(contact_stiffness(model), stiffness_.data());
+    std::ranges::copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()),
+                      quiet_.data());
     make_fill();
 }
 
@@ -167,12 +117,14 @@ void ContactResponse::make_fill() {
     auto& vt = pairs_.vt();
     auto& tv = pairs_.tv();
     auto& ee = pairs_.ee();
+    RowTable& planes = truncation_.table();
     SurfaceBuffers& surface = pairs_.buffers();
     fill_ = {
         "contacts",
         fill_kind_,
         {launch(kernels::find_touching_strips, surface.roots.items.segments, pairs_.near_strips(),
-                touching_, meeting_, filling_, apart_, model_.strips.count(), kInstance),
+                touching_, meeting_, filling_, truncation_.apart(), model_.strips.count(),
+                kInstance),
          only_where(filling_, launch(kernels::find_busy_patches, surface.patches.segments,
                                      static_cast<Buffer<int>&>(surface.around.begin),
                                      static_cast<Buffer<int>&>(surface.around.items),
@@ -185,16 +137,15 @@ void ContactResponse::make_fill() {
                     incidence_.triangles, incidence_.edges,
                     static_cast<Buffer<int>&>(surface.vertices.patches), busy_, vt.table.rows(),
                     vt.table.counts(), vt.others, tv.table.rows(), tv.table.counts(), tv.others,
-                    ee.table.rows(), ee.table.counts(), ee.others, planes_table_.rows(),
-                    planes_table_.counts(), planes_table_.needs(), planes_, contacts_.rows(),
-                    contacts_.counts(), contacts_.needs(), corner0_, corner1_, corner2_, corner3_,
-                    normals_, weights_, measures_, least_, nearest_, model_.vertex_count(),
+                    ee.table.rows(), ee.table.counts(), ee.others, planes.rows(), planes.counts(),
+                    planes.needs(), truncation_.planes(), contacts_.rows(), contacts_.counts(),
+                    contacts_.needs(), corner0_, corner1_, corner2_, corner3_, normals_, weights_,
+                    measures_, truncation_.least(), account_.nearest(), model_.vertex_count(),
                     pairs_.surface().triangle_count(), pairs_.surface().edge_count(), range_,
-                    kSoftSlack * floor_, factor, kInstance))}};
+                    truncation_.slack(), factor, kInstance))}};
     auto& launches = fill_.launches;
     if (model_.scene.contact->planes) {
-        launches.push_back(planes(*model_.positions, WEFT_CONTACT_START_SLACK * range_, 0));
-        launches.push_back(balls(*model_.positions, 0));
+        truncation_.add_start(launches, WEFT_CONTACT_START_SLACK * range_);
     }
     showing_ = launches.size();
     for (const int ahead : {0, 1}) launches.push_back(snapshot(*model_.positions, ahead));
@@ -222,7 +173,7 @@ std::vector<std::string> ContactResponse::kinds() const {
 
 std::vector<RowTable*> ContactResponse::tables() {
     auto list = pairs_.tables();
-    list.push_back(&planes_table_);
+    list.push_back(&truncation_.table());
     list.push_back(&contacts_);
     return list;
 }
@@ -264,13 +215,13 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
     auto task = step.add(fill_, 0, region.strips(), region.id);
     task.reads(anchors_, 0, all).reads(goals_, 0, all).updates(*model_.positions, first, last);
     add_pair_accesses(task, region);
-    for (RowTable* table : {&planes_table_, &contacts_}) {
+    for (RowTable* table : {&truncation_.table(), &contacts_}) {
         task.updates(table->counts(), first, last).updates(table->needs(), first, last);
     }
-    for (Buffer<int>* gate : {&touching_, &meeting_, &filling_, &apart_}) {
+    for (Buffer<int>* gate : {&touching_, &meeting_, &filling_, &truncation_.apart()}) {
         task.updates(*gate, region.begin, region.end);
     }
-    task.updates(planes_, planes_table_.entries());
+    task.updates(truncation_.planes(), truncation_.table().entries());
     for (Buffer<int>* corner : {&corner0_, &corner1_, &corner2_, &corner3_}) {
         task.updates(*corner, contacts_.entries());
     }
@@ -278,9 +229,9 @@ void ContactResponse::add_fill(Step& step, const Region& region) {
         task.updates(*column, contacts_.entries());
     }
     if (sticking_) sticking_->add_recall_accesses(task);
-    task.updates(least_, first, last)
-        .updates(nearest_, first, last)
-        .updates(cut_, first, last)
+    task.updates(truncation_.least(), first, last)
+        .updates(account_.nearest(), first, last)
+        .updates(truncation_.cut(), first, last)
         .updates(snapshots_, first, last)
         .updates(snapshots_, all + first, all + last);
     const Segments& patches = pairs_.buffers().patches.segments;
@@ -335,40 +286,15 @@ void ContactResponse::add_gather_accesses(Step::Adding& task, int iteration, int
     rows().add_reads(task, first_strip, end_strip, first, last);
 }
 
-Launch ContactResponse::planes(Buffer<float4>& positions, float soft, int all_from) {
-    return only_where(
-        touching_, launch(kernels::truncate_contacts, model_.vertices(), positions, anchors_,
-                          least_, planes_table_.rows(), planes_table_.counts(), planes_, cut_, soft,
-                          kHardSlack * floor_, kIteration, all_from));
-}
-
-Launch ContactResponse::balls(Buffer<float4>& positions, int all_from) {
-    return only_where(apart_, launch(kernels::hold_in_balls, model_.vertices(), positions, anchors_,
-                                     cut_, kIteration, all_from));
-}
-
 Launch ContactResponse::snapshot(Buffer<float4>& positions, int ahead) {
     return only_where(
-        touching_, launch(kernels::take_snapshot, model_.vertices(), positions, least_, snapshots_,
-                          model_.vertex_count(), kIteration, ahead));
+        touching_, launch(kernels::take_snapshot, model_.vertices(), positions, truncation_.least(),
+                          snapshots_, model_.vertex_count(), kIteration, ahead));
 }
 
 void ContactResponse::add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions,
                                      int all_from) {
-    if (!model_.scene.contact->planes) return;
-    launches.push_back(planes(positions, kSoftSlack * floor_, all_from));
-    launches.push_back(balls(positions, all_from));
-}
-
-void ContactResponse::add_truncation_accesses(Step::Adding& task, StripRange strips) {
-    const auto [first, last] = vertices(strips.begin, strips.end);
-    task.reads(touching_, strips.begin, strips.end)
-        .reads(apart_, strips.begin, strips.end)
-        .reads(anchors_, first, last)
-        .reads(least_, first, last)
-        .reads(planes_table_.counts(), first, last)
-        .reads(planes_, planes_table_.entries())
-        .updates(cut_, first, last);
+    if (model_.scene.contact->planes) truncation_.add(launches, positions, all_from);
 }
 
 void ContactResponse::add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions) {
@@ -380,7 +306,7 @@ void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, i
     const auto [first, last] = vertices(first_strip, end_strip);
     const int half = (iteration + 1) % 2 * model_.vertex_count();
     task.reads(touching_, first_strip, end_strip)
-        .reads(least_, first, last)
+        .reads(truncation_.least(), first, last)
         .updates(snapshots_, half + first, half + last);
 }
 
@@ -391,45 +317,19 @@ void ContactResponse::show_start(Launch even, Launch odd) {
 }
 
 void ContactResponse::add_count(std::vector<Launch>& launches) {
-    launches.push_back(launch(kernels::count_cut, model_.vertices(), cut_, anchors_, goals_,
-                              cut_counts_, cut_ways_, model_.vertex_count(), kInstance));
+    account_.add_launch(launches, cut(), anchors_, goals_);
     launches.push_back(launch(kernels::find_unquiet, model_.vertices(), *model_.positions, anchors_,
                               goals_, quiet_, motion_.unquiet(), kInstance));
-    if (insides_) insides_->add_launch(launches, cut_);
+    if (insides_) insides_->add_launch(launches, cut());
 }
 
 void ContactResponse::add_count_accesses(Step::Adding& task, int first, int last) {
-    const int all = model_.vertex_count();
-    task.reads(cut_, first, last)
+    task.reads(cut(), first, last)
         .reads(anchors_, first, last)
         .reads(goals_, first, last)
-        .updates(motion_.unquiet(), first, last)
-        .updates(cut_counts_, first, last)
-        .updates(cut_counts_, all + first, all + last)
-        .updates(cut_ways_, first, last);
+        .updates(motion_.unquiet(), first, last);
+    account_.add_accesses(task, first, last);
     if (insides_) insides_->add_accesses(task, first, last);
-}
-
-std::string ContactResponse::trouble() const {
-    const auto count = static_cast<std::size_t>(model_.vertex_count());
-    int lost = 0;
-    int touching = 0;
-    for (std::size_t v = 0; v < count; ++v) {
-        if (cut_counts_[count + v] > 0) ++lost;
-        if (nearest_[v] <= kNothing) ++touching;
-    }
-    std::string text;
-    if (lost > 0) {
-        text = fmt::format("contact: {} vertices found no place that all of their contacts allow",
-                           lost);
-    }
-    if (touching > 0) {
-        text += fmt::format(
-            "{}{} vertices are at distance 0 of a surface, where contact knows no "
-            "side to keep them on",
-            text.empty() ? "contact: " : ", and ", touching);
-    }
-    return text;
 }
 
 ContactRows ContactResponse::rows() {
@@ -454,48 +354,20 @@ void ContactResponse::put(std::span<const FrozenContact> contacts,
                           std::span<const float4> positions, std::span<const float4> targets) {
     fill_rows(rows(), contacts, positions, targets);
     // Who has pairs is not known.
-    std::ranges::fill(least_.span(), 0.0f);
+    std::ranges::fill(truncation_.least().span(), 0.0f);
     std::ranges::fill(touching_.span(), 1);
     std::ranges::fill(meeting_.span(), 1);
-    std::ranges::fill(apart_.span(), 0);
+    std::ranges::fill(apart().span(), 0);
 }
 
-ContactRecord ContactResponse::account() {
+ContactRecord ContactResponse::record() {
     const auto sum = [](Buffer<int>& needs) {
         return std::accumulate(needs.span().begin(), needs.span().end(), std::uint64_t{0});
     };
-    const auto count = static_cast<std::size_t>(model_.vertex_count());
-    ContactRecord record;
+    ContactRecord record = account_.record();
     record.pairs = sum(pairs_.vt().table.needs()) + sum(pairs_.ee().table.needs()) / 2;
     record.rows = sum(contacts_.needs());
-    record.least_distance = std::numeric_limits<double>::infinity();
-    for (std::size_t v = 0; v < count; ++v) {
-        if (nearest_[v] < range_) ++record.touching;
-        if (cut_counts_[v] > 0) ++record.truncated;
-        if (cut_counts_[count + v] > 0) ++record.lost;
-        if (nearest_[v] < kFar)
-            record.least_distance =
-                std::min(record.least_distance, static_cast<double>(nearest_[v]));
-    }
-    if (record.truncated > 0)
-        record.substeps_wanted = static_cast<std::uint32_t>(substeps_wanted());
     return record;
-}
-
-/// So many that inertia leads vertices which were taken back no further in one than contacts let
-/// them: planes leave them a good part of the gap before them, and from half of the thickness on
-/// they are pushed in time.
-int ContactResponse::substeps_wanted() const {
-    constexpr double kPart = 0.8;
-    double most = 0.0;
-    for (int v = 0; v < model_.vertex_count(); ++v) {
-        const auto i = static_cast<std::size_t>(v);
-        if (cut_counts_[i] == 0) continue;
-        const double gap = static_cast<double>(std::max(nearest_[i], 0.5f * range_));
-        most = std::max(most, static_cast<double>(cut_ways_[i]) / (kPart * gap));
-    }
-    const double substeps = std::ceil(most * model_.scene.dt / model_.h);
-    return std::max(model_.scene.substeps, static_cast<int>(std::min(substeps, 1e6)));
 }
 
 std::pair<int, int> ContactResponse::vertices(int first_strip, int end_strip) const {

@@ -9,12 +9,15 @@
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "runtime/trace/records.h"
+#include "simulation/contact/account.h"
 #include "simulation/contact/common_motion.h"
 #include "simulation/contact/energy.h"
 #include "simulation/contact/frozen.h"
+#include "simulation/contact/incidence.h"
 #include "simulation/contact/insides.h"
 #include "simulation/contact/pairs.h"
 #include "simulation/contact/sticking.h"
+#include "simulation/contact/truncation.h"
 #include "simulation/model/model.h"
 
 namespace weft {
@@ -62,7 +65,9 @@ public:
     /// until then nothing else knows whether they stay in their balls
     void add_truncation(std::vector<Launch>& launches, Buffer<float4>& positions, int all_from = 0);
     /// What that needs of its own strips.
-    void add_truncation_accesses(Step::Adding& task, StripRange strips);
+    void add_truncation_accesses(Step::Adding& task, StripRange strips) {
+        truncation_.add_accesses(task, strips);
+    }
     /// Shows the positions to all in the next iteration.
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
@@ -71,7 +76,7 @@ public:
     Buffer<float4>& snapshots() { return snapshots_; }
     /// [vertices] how far each is from its planes [m]; WEFT_NO_PLANE where it has no pairs, and so
     /// nobody reads its snapshots.
-    Buffer<float>& least() { return least_; }
+    Buffer<float>& least() { return truncation_.least(); }
     /// What a substep begins with in both halves, instead of the positions; in the task that fills
     /// the rows.
     void show_start(Launch even, Launch odd);
@@ -80,24 +85,17 @@ public:
     void add_count(std::vector<Launch>& launches);
     void add_count_accesses(Step::Adding& task, int first, int last);
 
-    /// What a frame tells of itself; the host's copy.
-    Buffer<int>& cut_counts() { return cut_counts_; }
-    Buffer<float>& cut_ways() { return cut_ways_; }
-    Buffer<float>& nearest() { return nearest_; }
+    /// What a frame tells of itself.
+    ContactAccount& account() { return account_; }
     /// Null: there are no convex obstacles to be inside of.
     Insides* insides() { return insides_.get(); }
-    // Of a frame of which the host has these:
-    /// what is to be told; empty: nothing;
-    std::string trouble() const;
-    /// what there was to do;
-    ContactRecord account();
-    /// with how many substeps inertia would lead nobody so far that it is taken back.
-    int substeps_wanted() const;
+    /// What there was to do in a frame of which the host has the account.
+    ContactRecord record();
 
     /// [strips] where nothing but balls holds vertices: 1; else 0.
-    Buffer<int>& apart() { return apart_; }
+    Buffer<int>& apart() { return truncation_.apart(); }
     /// [vertices] whom the last truncation took back: not 0.
-    Buffer<int>& cut() { return cut_; }
+    Buffer<int>& cut() { return truncation_.cut(); }
     /// [vertices] how many contacts each has.
     Buffer<int>& counts() { return contacts_.counts(); }
     ContactRows rows();
@@ -113,14 +111,6 @@ public:
     std::vector<BufferStorage*> state();
 
 private:
-    /// The surface as rows of contacts want it, in the model's vertices.
-    struct Incidence {
-        explicit Incidence(const Surface& surface);
-        Buffer<int> apexes;  ///< [surface vertices] the model's
-        Buffer<int> triangle_begin, triangle_list, edge_begin, edge_list;
-        Buffer<int> triangles;  ///< [3 * triangles] column-major
-        Buffer<int> edges;      ///< [2 * edges] likewise
-    };
     ContactResponse(Model& model, int first_kind);
     void make_fill();
     void add_fill(Step& step, const Region& region);
@@ -128,8 +118,6 @@ private:
     /// second_half: where it begins
     Launch gather_from(Phase phase, Buffer<float4>& positions, Buffer<float4>& snapshots,
                        int second_half, VertexItems& items, Buffer<float>& sums);
-    Launch planes(Buffer<float4>& positions, float soft, int all_from);
-    Launch balls(Buffer<float4>& positions, int all_from);
     Launch snapshot(Buffer<float4>& positions, int ahead);
     std::pair<int, int> vertices(int first_strip, int end_strip) const;
 
@@ -141,19 +129,17 @@ private:
     ContactPairs pairs_;
     CommonMotion motion_;
     Buffer<float> quiet_;  ///< [vertices] how far each may get before a triangle could turn over
-    Incidence incidence_;
-    Buffer<int> busy_;                                  ///< [patches] kernels/contact/fill.h
-    Buffer<int> touching_, meeting_, filling_, apart_;  ///< [strips] kernels/contact/gates.h
+    SurfaceIncidence incidence_;
+    Buffer<int> busy_;                          ///< [patches] kernels/contact/fill.h
+    Buffer<int> touching_, meeting_, filling_;  ///< [strips] kernels/contact/gates.h
     int fill_kind_;
-    RowTable planes_table_, contacts_;
-    Buffer<float4>& planes_;
+    ContactTruncation truncation_;
+    RowTable contacts_;
     Buffer<int>&corner0_, &corner1_, &corner2_, &corner3_;
     Buffer<float4>&normals_, &weights_, &measures_;
     Buffer<float4>& slips_;               ///< without friction: normals_
     std::unique_ptr<Sticking> sticking_;  ///< without friction: none
-    Buffer<float> least_, nearest_;
-    Buffer<int> cut_, cut_counts_;
-    Buffer<float> cut_ways_;
+    ContactAccount account_;
     std::unique_ptr<Insides> insides_;  ///< without convex obstacles: none
     Buffer<float4> snapshots_;
     TaskBody fill_;

@@ -102,7 +102,7 @@ Verdict FrameJudge::judge_obstacles(const Ran& ran) {
     }
     if (!inside_) return {};
     ContactResponse* contact = fetch_contact();
-    const auto cuts = contact->cut_counts().span();
+    const auto cuts = contact->account().cut_counts().span();
     if (std::ranges::none_of(cuts, [](int count) { return count > 0; })) return {};
     live_.executor().fetch(contact->insides()->depths());
     live_.executor().fetch(contact->insides()->obstacles());
@@ -168,9 +168,7 @@ void FrameJudge::tell_of_tolerance(int frame, double error) {
 ContactResponse* FrameJudge::fetch_contact() {
     ContactResponse* contact = live_.contact();
     if (contact == nullptr) return nullptr;
-    live_.executor().fetch(contact->cut_counts());
-    live_.executor().fetch(contact->cut_ways());
-    live_.executor().fetch(contact->nearest());
+    for (BufferStorage* buffer : contact->account().buffers()) live_.executor().fetch(*buffer);
     return contact;
 }
 
@@ -178,9 +176,9 @@ ContactResponse* FrameJudge::fetch_contact() {
 void FrameJudge::look_at_contact(const Ran& ran, FrameRecord& record) {
     ContactResponse* contact = fetch_contact();
     if (contact == nullptr) return;
-    record.contacts = {contact->account()};
+    record.contacts = {contact->record()};
     record.contacts.front().redone = ran.redone;
-    const std::string what = contact->trouble();
+    const std::string what = contact->account().trouble();
     if (!what.empty()) {
         troubles_.tell(
             ran.frame, {Alarm::Kind::kDoubt, what, {}},
