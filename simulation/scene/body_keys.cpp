@@ -1,19 +1,16 @@
 #include "simulation/scene/body_keys.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "simulation/scene/elements/element_keys.h"
-#include "simulation/scene/limits.h"
 #include "simulation/scene/node_values.h"
+#include "simulation/scene/selection_keys.h"
 
 namespace weft {
 namespace {
 
 const Range kVertices = between(2, 1e6);
-
-const std::vector<std::string> kGridCorners{"x-z-", "x+z-", "x-z+", "x+z+"};
-const std::vector<std::string> kBlockCorners{"x-y-z-", "x+y-z-", "x-y+z-", "x+y+z-",
-                                             "x-y-z+", "x+y-z+", "x-y+z+", "x+y+z+"};
 
 const TableKeys& grid_table() {
     static const TableKeys table{{
@@ -108,84 +105,19 @@ const Key& copies_key() {
     return key;
 }
 
-// Which vertices: corners where there are some, indices, boxes.
-Key corners_key(std::vector<std::string> choices, std::string help) {
-    return {.name = "corners",
-            .type = Type::kText,
-            .forms = {{kAny}},
-            .help = std::move(help),
-            .choices = std::move(choices)};
-}
-
-const Key& edges_key() {
-    static const Key key{.name = "edges",
-                         .type = Type::kText,
-                         .forms = {{kAny}},
-                         .help = "edges of a cloth's grid",
-                         .choices = {"x-", "x+", "z-", "z+"}};
-    return key;
-}
-
-const Key& rims_key() {
-    static const Key key{.name = "rims",
-                         .type = Type::kText,
-                         .forms = {{kAny}},
-                         .help = "rims of a cylinder",
-                         .choices = {"top", "bottom"}};
-    return key;
-}
-
-const Key& faces_key() {
-    static const Key key{.name = "faces",
-                         .type = Type::kText,
-                         .forms = {{kAny}},
-                         .help = "faces of a block",
-                         .choices = {"x-", "x+", "y-", "y+", "z-", "z+"}};
-    return key;
-}
-
-const Key& vertices_key() {
-    static const Key key{.name = "vertices",
-                         .type = Type::kInteger,
-                         .forms = {{kAny}},
-                         .help = "indices from 0, in the order of the mesh",
-                         .range = between(0, static_cast<double>(kMaxVertices - 1))};
-    return key;
-}
-
-const Key& parts_key() {
-    static const Key key{.name = "parts",
-                         .type = Type::kText,
-                         .forms = {{kAny}},
-                         .help = "named objects and groups of a cloth's OBJ file"};
-    return key;
-}
-
-const Key& box_key() {
-    static const Key key{
-        .name = "box",
-        .forms = {{2, 3}, {kAny, 2, 3}},
-        .help =
-            "all vertices that start inside [[low x, y, z], [high x, y, z]], or inside any of "
-            "a list of these",
-        .unit = "m"};
-    return key;
-}
-
-Key pins_motion_key() {
-    return motion_key("carries the pinned vertices along; default: they stay where they are");
+TableKeys pins_table(std::vector<Key> selection) {
+    selection.push_back(
+        motion_key("carries the pinned vertices along; default: they stay where they are"));
+    return {std::move(selection)};
 }
 
 const TableKeys& cloth_pins_table() {
-    static const TableKeys table{{corners_key(kGridCorners, "corners of a grid"), edges_key(),
-                                  rims_key(), parts_key(), vertices_key(), box_key(),
-                                  pins_motion_key()}};
+    static const TableKeys table = pins_table(cloth_selection_keys());
     return table;
 }
 
 const TableKeys& solid_pins_table() {
-    static const TableKeys table{{corners_key(kBlockCorners, "corners of a block"), faces_key(),
-                                  vertices_key(), box_key(), pins_motion_key()}};
+    static const TableKeys table = pins_table(solid_selection_keys());
     return table;
 }
 
@@ -353,90 +285,6 @@ const TableKeys& solid_table() {
             },
         .exactly_one_of = {"grid", "mesh"},
     };
-    return table;
-}
-
-const TableKeys& attachment_table() {
-    const auto all_corners = [] {
-        std::vector<std::string> corners = kGridCorners;
-        corners.insert(corners.end(), kBlockCorners.begin(), kBlockCorners.end());
-        return corners;
-    };
-    static const TableKeys table{{
-        {.name = "a",
-         .type = Type::kText,
-         .help = "name of the cloth or solid whose vertices are tied",
-         .required = true},
-        {.name = "b",
-         .type = Type::kText,
-         .help = "name of another one: each vertex is tied to the nearest vertex of this",
-         .required = true},
-        {.name = "stiffness",
-         .help = "of each spring that ties two vertices; its rest length is their distance at the "
-                 "start",
-         .unit = "N/m",
-         .required = true,
-         .range = positive()},
-        {.name = "reach",
-         .help = "selected vertices that have nothing of b nearer than this stay free; default: no "
-                 "limit",
-         .unit = "m",
-         .range = between(0.0, 1e6)},
-        corners_key(all_corners(), "corners of a, if it is a grid or block"),
-        edges_key(),
-        rims_key(),
-        faces_key(),
-        parts_key(),
-        vertices_key(),
-        box_key(),
-    }};
-    return table;
-}
-
-namespace {
-
-const TableKeys& seam_side_table() {
-    static const TableKeys table{{
-        {.name = "cloth", .type = Type::kText, .help = "name of the cloth", .required = true},
-        corners_key(kGridCorners, "corners of a grid"),
-        edges_key(),
-        rims_key(),
-        parts_key(),
-        vertices_key(),
-        box_key(),
-    }};
-    return table;
-}
-
-Key seam_side_key(std::string name, std::string help) {
-    return {.name = std::move(name),
-            .type = Type::kTable,
-            .help = std::move(help),
-            .required = true,
-            .table = &seam_side_table()};
-}
-
-}  // namespace
-
-const TableKeys& seam_table() {
-    static const TableKeys table{{
-        seam_side_key("a",
-                      "one edge: the selected vertices at the border of a cloth, or vertices "
-                      "listed one by one"),
-        seam_side_key("b", "the other edge, of the same cloth or another one"),
-        {.name = "stiffness",
-         .help = "of each stitch; with time, or instead of both weld",
-         .unit = "N/m",
-         .range = positive()},
-        {.name = "time",
-         .help = "until the edges are together; then the stitches hold",
-         .unit = "s",
-         .range = {.low = 1e-6, .high = 1e6}},
-        {.name = "weld",
-         .type = Type::kBoolean,
-         .help = "the edges, of one cloth and in one place at time 0, become one edge",
-         .fallback = false},
-    }};
     return table;
 }
 

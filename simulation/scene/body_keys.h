@@ -5,7 +5,7 @@
 
 #include "simulation/scene/keys.h"
 
-/// Parts of the table in keys.h: what cloths, solids, attachments and seams are described by.
+/// Parts of the table in keys.h: what cloths and solids are described by.
 namespace weft {
 
 inline constexpr Range kLength = between(1e-6, 1e6);  ///< [m]
@@ -22,7 +22,5 @@ std::vector<Key> mesh_obstacle_keys();
 
 const TableKeys& cloth_table();
 const TableKeys& solid_table();
-const TableKeys& attachment_table();
-const TableKeys& seam_table();
 
 }  // namespace weft

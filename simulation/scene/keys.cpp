@@ -2,6 +2,7 @@
 
 #include "simulation/scene/auto_method.h"
 #include "simulation/scene/body_keys.h"
+#include "simulation/scene/connection_keys.h"
 #include "simulation/scene/limits.h"
 #include "simulation/scene/node_values.h"
 #include "simulation/scene/obstacle_shapes.h"

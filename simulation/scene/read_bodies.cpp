@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "runtime/near_miss.h"
 #include "simulation/scene/elements/element_keys.h"
 #include "simulation/scene/node_values.h"
+#include "simulation/scene/read_connections.h"
 #include "simulation/scene/read_motion.h"
+#include "simulation/scene/read_selection.h"
 #include "simulation/scene/resolution.h"
 
 namespace weft {
@@ -110,81 +110,6 @@ Transform read_transform(const Node& table) {
     return transform;
 }
 
-std::vector<Box3> read_boxes(const Node& pins) {
-    std::vector<Box3> boxes;
-    const Node* list = pins.find("box");
-    if (!list) return boxes;
-    for (const Node& corners : list->array()) {
-        const Box3 box{vec3_of(corners.array()[0]), vec3_of(corners.array()[1])};
-        if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) {
-            throw value_error(pins, "box", "the first corner must be the lower one on every axis");
-        }
-        boxes.push_back(box);
-    }
-    return boxes;
-}
-
-/// Whether its corners and faces have names.
-bool is_whole_block(const Shape& shape) {
-    const auto* block = std::get_if<BlockShape>(&shape);
-    return block != nullptr && block->outline.empty();
-}
-
-bool has_corner(const Shape& shape, const std::string& corner) {
-    const bool is_of_block = corner.size() == 6;  // "x-y-z-", while a grid's are "x-z-"
-    return is_of_block ? is_whole_block(shape) : std::holds_alternative<GridShape>(shape);
-}
-
-/// Which vertices of a body with that shape.
-void read_selection(const Node& table, const Shape& shape, Selection& selection) {
-    selection.where = table.mark.text();
-    selection.corners = text_values(table, "corners");
-    selection.edges = text_values(table, "edges");
-    selection.rims = text_values(table, "rims");
-    selection.faces = text_values(table, "faces");
-    selection.parts = text_values(table, "parts");
-    selection.vertices = integer_values(table, "vertices");
-    selection.boxes = read_boxes(table);
-    for (const std::string& corner : selection.corners) {
-        if (!has_corner(shape, corner)) {
-            throw value_error(table, "corners",
-                              corner.size() == 6
-                                  ? "only a solid's grid has such corners, and none with an "
-                                    "outline; use vertices or box"
-                                  : "only a grid has corners; use vertices or box");
-        }
-    }
-    if (!selection.edges.empty() && !std::holds_alternative<GridShape>(shape)) {
-        throw value_error(table, "edges", "only a cloth's grid has edges; use vertices or box");
-    }
-    if (!selection.rims.empty() && !std::holds_alternative<CylinderShape>(shape)) {
-        throw value_error(table, "rims", "only a cylinder has rims; use vertices or box");
-    }
-    if (!selection.faces.empty() && !is_whole_block(shape)) {
-        throw value_error(table, "faces",
-                          "only a solid's grid has faces, and none with an outline; use "
-                          "vertices or box");
-    }
-    if (!selection.parts.empty() && !std::holds_alternative<MeshFile>(shape)) {
-        throw value_error(table, "parts",
-                          "only a cloth's mesh file has parts; use vertices or box");
-    }
-}
-
-constexpr const char* kSelectionKeys = "corners, edges, rims, faces, parts, vertices or box";
-
-/// Also by a list that is empty: a sweep may have nothing selected in one of its runs.
-bool has_selection(const Node& table) {
-    constexpr std::array kKeys{"corners", "edges", "rims", "faces", "parts", "vertices", "box"};
-    return std::ranges::any_of(kKeys, [&](const char* key) { return table.find(key) != nullptr; });
-}
-
-bool names_any(const Selection& selection) {
-    return !selection.corners.empty() || !selection.edges.empty() || !selection.rims.empty() ||
-           !selection.faces.empty() || !selection.parts.empty() || !selection.vertices.empty() ||
-           !selection.boxes.empty();
-}
-
 std::vector<PinGroup> read_pins(const Node& table, const Shape& shape) {
     std::vector<PinGroup> groups;
     const Node* list = table.find("pins");
@@ -206,45 +131,6 @@ Material read_material(const Node& table) {
     return {number_value(table, "young"), number_value(table, "poisson")};
 }
 
-const Shape* find_shape(const Scene& scene, const std::string& name) {
-    for (const Cloth& cloth : scene.cloths) {
-        if (cloth.name == name) return &cloth.shape;
-    }
-    for (const Solid& solid : scene.solids) {
-        if (solid.name == name) return &solid.shape;
-    }
-    return nullptr;
-}
-
-const Shape& named_shape(const Node& table, std::string_view key, const Scene& scene) {
-    const std::string name = text_value(table, key);
-    if (const Shape* shape = find_shape(scene, name)) return *shape;
-    std::vector<std::string> names;
-    for (const Cloth& cloth : scene.cloths) names.push_back(cloth.name);
-    for (const Solid& solid : scene.solids) names.push_back(solid.name);
-    throw value_error(table, key,
-                      "no cloth or solid has this name; " + near_miss_or_list(name, names));
-}
-
-Attachment read_attachment(const Node& table, const Scene& scene) {
-    Attachment attachment;
-    attachment.where = table.mark.text();
-    attachment.a = text_value(table, "a");
-    attachment.b = text_value(table, "b");
-    const Shape& shape = named_shape(table, "a", scene);
-    named_shape(table, "b", scene);
-    if (attachment.a == attachment.b) {
-        throw value_error(table, "b", "must be another cloth or solid than a");
-    }
-    read_selection(table, shape, attachment.selected);
-    if (!names_any(attachment.selected)) {
-        throw value_error(table, "a", std::string("say which of its vertices: ") + kSelectionKeys);
-    }
-    attachment.stiffness = number_value(table, "stiffness");
-    if (table.find("reach")) attachment.reach = number_value(table, "reach");
-    return attachment;
-}
-
 /// What its triangles and edges are; something has to hold them together.
 void read_elements(const Node& table, Cloth& cloth) {
     std::vector<std::string> holding;
@@ -259,66 +145,6 @@ void read_elements(const Node& table, Cloth& cloth) {
     throw value_error(
         table, holding.front(),
         fmt::format("is missing: a cloth needs one or more of {}", fmt::join(holding, ", ")));
-}
-
-const Cloth& named_cloth(const Node& table, const Scene& scene) {
-    const std::string name = text_value(table, "cloth");
-    std::vector<std::string> names;
-    for (const Cloth& cloth : scene.cloths) {
-        if (cloth.name == name) return cloth;
-        names.push_back(cloth.name);
-    }
-    throw value_error(table, "cloth", "no cloth has this name; " + near_miss_or_list(name, names));
-}
-
-UserError no_mesh_to_weld(const Node& table) {
-    return value_error(table, "weld",
-                       "only a mesh file has several vertices in one place; leave it out");
-}
-
-SeamSide read_seam_side(const Node& table, const Scene& scene) {
-    SeamSide side;
-    const Cloth& cloth = named_cloth(table, scene);
-    side.cloth = cloth.name;
-    read_selection(table, cloth.shape, side.selected);
-    if (names_any(side.selected)) return side;
-    throw value_error(table, "cloth",
-                      "say which of its vertices: edges, rims, parts, vertices or box");
-}
-
-/// Welding makes vertices of one mesh one, so that its triangles and folds go on over the seam.
-void check_weld(const Node& table, const Seam& seam, const Scene& scene) {
-    for (const char* key : {"stiffness", "time"}) {
-        if (!table.find(key)) continue;
-        throw value_error(table, key,
-                          "cannot stand beside weld = true, which has no stitches; leave out "
-                          "either");
-    }
-    if (seam.a.cloth != seam.b.cloth) {
-        throw value_error(table, "weld",
-                          fmt::format("joins edges of one cloth, and these are of '{}' and '{}'; "
-                                      "put both into one mesh file, or leave weld out and give "
-                                      "stiffness and time: then stitches hold them together",
-                                      seam.a.cloth, seam.b.cloth));
-    }
-    const auto cloth = std::ranges::find(scene.cloths, seam.a.cloth, &Cloth::name);
-    if (!std::holds_alternative<MeshFile>(cloth->shape)) throw no_mesh_to_weld(table);
-}
-
-Seam read_seam(const Node& table, const Scene& scene) {
-    Seam seam{read_seam_side(*table.find("a"), scene), read_seam_side(*table.find("b"), scene), 0.0,
-              0.0, table.mark.text()};
-    if (truth_value(table, "weld")) {
-        check_weld(table, seam, scene);
-        return seam;
-    }
-    for (const char* key : {"stiffness", "time"}) {
-        if (table.find(key)) continue;
-        throw value_error(table, key, "is missing: a seam has stiffness and time, or weld = true");
-    }
-    seam.stiffness = number_value(table, "stiffness");
-    seam.time = number_value(table, "time");
-    return seam;
 }
 
 /// Puts a body where its copy number n is.
@@ -359,7 +185,7 @@ Cloth read_cloth(const Node& table, const std::string& scene_path) {
     cloth.damping = optional_number(table, "damping");
     cloth.pins = read_pins(table, cloth.shape);
     cloth.weld = truth_value(table, "weld");
-    if (cloth.weld && !std::holds_alternative<MeshFile>(cloth.shape)) throw no_mesh_to_weld(table);
+    if (cloth.weld) require_weldable(table, cloth.shape);
     return cloth;
 }
 
@@ -401,29 +227,6 @@ MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene) {
     obstacle.where = motion->find("frames")->mark.text();
     obstacle.frame_time = optional_number(*motion, "frame_time").value_or(scene.dt);
     return obstacle;
-}
-
-std::vector<Attachment> read_attachments(const Node& root, const Scene& scene) {
-    std::vector<Attachment> attachments;
-    const Node* list = root.find("attachment");
-    if (!list) return attachments;
-    for (const Node& table : list->array()) attachments.push_back(read_attachment(table, scene));
-    return attachments;
-}
-
-void read_seams(const Node& root, Scene& scene) {
-    const Node* list = root.find("seam");
-    if (!list) return;
-    for (const Node& table : list->array()) {
-        Seam seam = read_seam(table, scene);
-        if (seam.time > 0.0) {
-            scene.seams.push_back(std::move(seam));
-            continue;
-        }
-        const auto cloth = std::ranges::find(scene.cloths, seam.a.cloth, &Cloth::name);
-        cloth->welds.push_back(
-            {std::move(seam.a.selected), std::move(seam.b.selected), std::move(seam.where)});
-    }
 }
 
 }  // namespace weft

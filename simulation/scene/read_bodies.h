@@ -6,7 +6,7 @@
 #include "simulation/scene/document.h"
 #include "simulation/scene/scene.h"
 
-/// Cloths, solids and attachments out of a checked document. Throw UserError.
+/// Cloths, solids and obstacles of triangles out of a checked document. Throw UserError.
 namespace weft {
 
 /// scene_path: mesh files are relative to its folder. All but the name.
@@ -19,10 +19,5 @@ std::vector<Body> read_copies(const Node& table, const Body& body);
 
 /// scene: has its path and its dt already. All but the name and the parent.
 MeshObstacle read_mesh_obstacle(const Node& table, const Scene& scene);
-
-/// scene: has its cloths and solids already.
-std::vector<Attachment> read_attachments(const Node& root, const Scene& scene);
-/// Into the scene's seams, and the welded ones into their cloths.
-void read_seams(const Node& root, Scene& scene);
 
 }  // namespace weft

@@ -16,6 +16,7 @@
 #include "simulation/scene/obstacle_shapes.h"
 #include "simulation/scene/overrides.h"
 #include "simulation/scene/read_bodies.h"
+#include "simulation/scene/read_connections.h"
 #include "simulation/scene/read_motion.h"
 #include "simulation/scene/resolution.h"
 #include "simulation/scene/solver_limits.h"
