@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "kernels/descent/substep.h"
 #include "kernels/exchange.h"
 #include "runtime/error.h"
 #include "scheduler/assert.h"
+#include "simulation/solver/iterate_cells.h"
 
 namespace weft {
 
@@ -26,63 +26,6 @@ int slots_for(const AsyncSettings& settings) {
 }
 
 }  // namespace
-
-/// The parts of the iterate that a step's tasks tell apart: pieces side by side that the same
-/// accesses cover are one.
-class AsyncIterates::Cells {
-public:
-    struct Cell {
-        std::size_t buffer;
-        int first_piece;
-        int end_piece;
-    };
-
-    Cells(const Iterates& iterates, const Step& step, const Partition& partition)
-        : iterates_(iterates) {
-        for (std::size_t b = 0; b < iterates.buffer_count(); ++b) add_buffer(b, step, partition);
-    }
-
-    const std::vector<Cell>& cells() const { return cells_; }
-
-    /// Those that an access covers.
-    scheduler::CellRange of(std::size_t buffer, const Access& access) const {
-        const auto [first, end] = iterates_.pieces_with(access.begin, access.end);
-        const auto at = [&](int piece) {
-            const auto found = std::ranges::find_if(
-                cells_, [&](const Cell& c) { return c.buffer == buffer && c.end_piece > piece; });
-            return static_cast<int>(found - cells_.begin());
-        };
-        return {at(first), at(end - 1) + 1};
-    }
-
-private:
-    void add_buffer(std::size_t buffer, const Step& step, const Partition& partition) {
-        std::set<int> cuts;
-        for (int half = 0; half < iterates_.halves(buffer); ++half) {
-            const int first = half * iterates_.pieces_per_half();
-            cuts.insert(first);
-            for (const Part& part : partition.parts) {
-                cuts.insert(first + Iterates::kPiecesPerStrip * part.begin);
-            }
-            cuts.insert(first + iterates_.pieces_per_half());
-        }
-        for (const Task& task : step.tasks()) {
-            for (const Access& access : task.accesses) {
-                if (iterates_.index_of(access.buffer) != buffer) continue;
-                WEFT_ASSERT(access.segments == nullptr);
-                const auto [first, end] = iterates_.pieces_with(access.begin, access.end);
-                cuts.insert(first);
-                cuts.insert(end);
-            }
-        }
-        for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut) {
-            cells_.push_back({buffer, *cut, *std::next(cut)});
-        }
-    }
-
-    const Iterates& iterates_;
-    std::vector<Cell> cells_;
-};
 
 AsyncIterates::AsyncIterates(const Model& model, std::unique_ptr<Solver> solver, int iterates,
                              const AsyncSettings& settings)
@@ -246,7 +189,8 @@ std::vector<std::vector<double>> durations_by_device(const Step& step, const Par
 
 /// A cell's owner has its strips; where nobody has strips, the fastest one has it all, as the
 /// paper's main device.
-std::vector<int> AsyncIterates::owners_of(const Partition& partition, const Cells& cells) const {
+std::vector<int> AsyncIterates::owners_of(const Partition& partition,
+                                          const IterateCells& cells) const {
     std::vector<int> owners;
     for (const auto& cell : cells.cells()) {
         const int strip =
@@ -277,7 +221,7 @@ void AsyncIterates::place_kinds(const Step& step, const Partition& partition,
 }
 
 scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Partition& partition,
-                                                     const Cells& cells) const {
+                                                     const IterateCells& cells) const {
     scheduler::ExchangeProblem problem;
     problem.devices = static_cast<int>(partition.parts.size());
     problem.window = settings_.window;
@@ -314,7 +258,7 @@ scheduler::ExchangeProblem AsyncIterates::problem_of(const Step& step, const Par
 
 scheduler::ExchangeProblem AsyncIterates::problem_of(const Partition& partition) {
     const Step step = base_step(partition);
-    return problem_of(step, partition, Cells(iterates_, step, partition));
+    return problem_of(step, partition, IterateCells(iterates_, step, partition));
 }
 
 /// What the synchronous solver does.
@@ -333,7 +277,7 @@ Step AsyncIterates::base_step(const Partition& partition) {
 class AsyncIterates::Building {
 public:
     /// devices: of the map
-    Building(const AsyncIterates& solver, const Step& base, const Cells& cells, int devices)
+    Building(const AsyncIterates& solver, const Step& base, const IterateCells& cells, int devices)
         : solver_(solver), base_(base), cells_(cells), devices_(devices) {}
 
     Step build(const scheduler::ExchangeMap& map) {
@@ -405,7 +349,7 @@ private:
 
     const AsyncIterates& solver_;
     const Step& base_;
-    const Cells& cells_;
+    const IterateCells& cells_;
     int devices_;
     Step step_;
 };
@@ -429,7 +373,7 @@ Step AsyncIterates::make_step(const Partition& partition) {
     WEFT_ASSERT(static_cast<int>(partition.parts.size()) <= iterates_.count());
     Step base = base_step(partition);
     if (partition.parts.size() == 1) return base;
-    const Cells cells(iterates_, base, partition);
+    const IterateCells cells(iterates_, base, partition);
     const auto problem = problem_of(base, partition, cells);
     const auto map = map_of(problem);
     WEFT_ASSERT(scheduler::find_fault(problem, map).empty());

@@ -11,6 +11,8 @@
 
 namespace weft {
 
+class IterateCells;
+
 /// A solver whose parts do not wait for each other: each works on an iterate of its own, and learns
 /// what others did by a map that is fixed beforehand (scheduler/exchange_map.h). The results are
 /// others than the solver's. They depend on the partition and on the settings, and on nothing else:
@@ -40,7 +42,6 @@ public:
     scheduler::ExchangeProblem problem_of(const Partition& partition);
 
 private:
-    class Cells;
     class Building;
 
     /// Bodies of copies and merges: [buffer, from, to] and [buffer, start, from, to].
@@ -52,10 +53,10 @@ private:
     void add_copy(std::size_t buffer, int from, int to);
     void add_merge(std::size_t buffer, int start, int from, int to);
     scheduler::ExchangeProblem problem_of(const Step& step, const Partition& partition,
-                                          const Cells& cells) const;
+                                          const IterateCells& cells) const;
     bool by_kinds() const { return settings_.tasks == AsyncSettings::Tasks::kKinds; }
     Step base_step(const Partition& partition);
-    std::vector<int> owners_of(const Partition& partition, const Cells& cells) const;
+    std::vector<int> owners_of(const Partition& partition, const IterateCells& cells) const;
     int stage_of(const Task& task, int number) const;
     void place_kinds(const Step& step, const Partition& partition,
                      scheduler::ExchangeProblem& problem) const;

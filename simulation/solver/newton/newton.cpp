@@ -4,7 +4,6 @@
 
 #include "kernels/descent/substep.h"
 #include "kernels/newton/control.h"
-#include "kernels/vbd/solve.h"
 #include "runtime/unused_memory.h"
 #include "simulation/families/tetrahedra/tetrahedra.h"
 #include "simulation/solver/accesses.h"
@@ -12,6 +11,7 @@
 #include "simulation/solver/energy_sum.h"
 #include "simulation/solver/newton/conjugate_gradients.h"
 #include "simulation/solver/newton/refinement.h"
+#include "simulation/solver/newton/smoother.h"
 
 namespace weft {
 
@@ -40,36 +40,6 @@ constexpr int kCoarseEvery = 5;  ///< iterations
 constexpr float kSlack = 1.00001f;
 constexpr float kSlackWithPushes = 2.0f;  ///< by obstacles, or friction, which E does not count
 
-/// Sweeps of vertex block descent (sweeps.h).
-struct Smoother {
-    Smoother(Model& model, DescentSubstep& substep, const VertexGraph& graph)
-        : contact(substep.contact()),
-          items(make_vertex_layout(graph, model.strips)),
-          derivatives(model, items) {
-        for (const Phase phase : {kSeamPhase, kInnerPhase}) {
-            TaskBody& body = phase == kSeamPhase ? seams : strips;
-            body.launches = derivatives.gather(phase, *model.positions);
-            if (contact != nullptr) {
-                body.launches.push_back(
-                    contact->gather(phase, *model.positions, items, derivatives.sums()));
-            }
-            body.launches.push_back(launch(kernels::solve_vertices, items.segments(phase),
-                                           *model.positions, substep.targets(), items.vertices(),
-                                           derivatives.sums(), items.count(),
-                                           static_cast<float>(1.0 / (model.h * model.h))));
-            body.taking_turns = static_cast<int>(body.launches.size());
-        }
-        substep.momentum().add_obstacles(strips.launches, *model.positions);
-        if (contact == nullptr) return;
-        contact->add_truncation(strips.launches, *model.positions);
-        contact->add_snapshot(strips.launches, *model.positions);
-    }
-    ContactResponse* contact;  ///< null: none
-    VertexItems items;
-    VertexDerivatives derivatives;
-    TaskBody seams{"seams", kSeams, {}}, strips{"strips", kStrips, {}};
-};
-
 class NewtonSolver final : public Solver, public NewtonRefinement {
 public:
     explicit NewtonSolver(Model& model)
@@ -82,7 +52,7 @@ public:
           substep_(model, kKinds),
           contact_(substep_.contact()),
           gradients_(model, substep_, graph),
-          smoother_(model, substep_, graph),
+          smoother_(model, substep_, graph, {kSeams, kStrips}),
           energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
           kept_("positions.kept", model.positions->count()),
           control_("control", WEFT_CONTROL_SIZE),
@@ -403,7 +373,7 @@ private:
     DescentSubstep substep_;
     ContactResponse* contact_;  ///< null: none
     ConjugateGradients gradients_;
-    Smoother smoother_;
+    NewtonSmoother smoother_;
     EnergySum energy_;
     Buffer<float4> kept_;
     std::unique_ptr<Buffer<float4>> kept_targets_;  ///< null: no obstacles, nothing moves targets
