@@ -1,13 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "runtime/buffer.h"
 #include "simulation/contact/body_groups.h"
+#include "simulation/contact/foreseen_motion.h"
 #include "simulation/contact/interval_box.h"
-#include "simulation/contact/obstacle_boxes.h"
 #include "simulation/contact/surface.h"
 #include "simulation/model/model.h"
 
@@ -45,8 +44,8 @@ public:
     /// several of them; see BodyGroups.
     BodyGroups& group(std::vector<std::vector<int>> parts);
 
-    int body_count() const { return static_cast<int>(bodies_.size()); }
-    int chunk_count() const { return static_cast<int>(chunks_.size()); }
+    int body_count() const { return static_cast<int>(bodies().size()); }
+    int chunk_count() const { return static_cast<int>(chunks().size()); }
     Buffer<int>& body_of() { return body_of_; }     ///< [model vertices]
     Buffer<float4>& carried() { return carried_; }  ///< [substeps * bodies] see begin.h
     Buffer<int>& chunk_of() { return chunk_of_; }   ///< [patches]
@@ -55,42 +54,14 @@ public:
     Buffer<int>& unquiet() { return unquiet_; }     ///< [vertices] likewise; see quiet.h
 
 private:
-    struct Body {
-        double mass = 0.0;
-        bool is_held = false;
-        // Of the frame.
-        std::vector<Vec3> velocity{};  ///< [substeps] with which it would fall freely [m/s]
-        double led = 0.0;     ///< the farthest that the scene leads what may push its group [m]
-        int group = 0;        ///< of bodies that may meet in the frame
-        IntervalBox swept{};  ///< all that it may reach in the frame
-    };
-    /// Some patches of one body that follow each other.
-    struct Chunk {
-        int body = 0;
-        std::vector<int> vertices{};  ///< the model's, of all its triangles
-        bool falls = false;           ///< something of it is free
-        // Of the frame.
-        IntervalBox place{}, velocity{}, swept{};
-        double clearance = 0.0;  ///< that it may take beyond what it needs [m]
-    };
-    using Pair = std::pair<int, int>;
     struct Groups {
         std::vector<int> of;           ///< [bodies] the lowest of its group
         std::vector<char> is_blocked;  ///< [bodies] by an obstacle
     };
 
-    /// chunk_of: [patches]
+    const std::vector<ForeseenMotion::Body>& bodies() const { return foreseen_.bodies(); }
+    const std::vector<ForeseenMotion::Chunk>& chunks() const { return foreseen_.chunks(); }
     void hold();
-    static std::vector<Chunk> make_chunks(const Model& model, const Surface& surface,
-                                          const std::vector<int>& chunk_of);
-    void make_bodies();
-    void add_up_gravity();
-    void look_at_bodies(double time);
-    std::vector<double> ways_of_held(double time) const;
-    void look_at_chunks();
-    void find_neighbours();
-    bool share_what_leads();
-    void find_clearance();
     void place_substep(int substep, Groups& known);
     /// Of bodies in groups: with which the group moves, 0 where it does not, or one is blocked.
     std::vector<Vec3> common_velocities(int substep, const std::vector<int>& groups,
@@ -98,7 +69,6 @@ private:
     std::vector<int> free_groups(const std::vector<IntervalBox>& boxes) const;
     bool block(int substep, const std::vector<Vec3>& together,
                const std::vector<IntervalBox>& boxes, std::vector<char>& is_blocked) const;
-    IntervalBox reached(const Chunk& chunk, int substep, Vec3 together) const;
     std::vector<IntervalBox> reached(int substep, const std::vector<Vec3>& together) const;
     std::vector<char> split_groups(const std::vector<int>& groups,
                                    const std::vector<Vec3>& together) const;
@@ -108,15 +78,9 @@ private:
     void carry(int substep, const std::vector<Vec3>& together);
 
     const Model& model_;
-    double thickness_, margin_;
+    double thickness_;
     int substeps_;
-    std::vector<Body> bodies_;
-    std::vector<int> held_;  ///< vertices
-    std::vector<Chunk> chunks_;
-    ObstacleBoxes obstacles_;
-    std::vector<Pair> near_;             ///< chunks of different bodies that may meet in the frame
-    std::vector<Pair> in_the_way_;       ///< chunks, and obstacles that they may meet in the frame
-    std::vector<Vec3> gained_, fallen_;  ///< [substeps + 1] by gravity since the frame's start
+    ForeseenMotion foreseen_;
     Buffer<int>& foresees_;
     Buffer<int> body_of_, chunk_of_, strays_, unquiet_;
     Buffer<float4> carried_, fences_;
