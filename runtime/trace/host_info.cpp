@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "runtime/cores.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/handle.h"
 
 #ifdef __APPLE__
 #include <sys/sysctl.h>

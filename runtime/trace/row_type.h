@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/handle.h"
 
 namespace weft::trace {
 

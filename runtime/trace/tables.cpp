@@ -1,5 +1,8 @@
 #include "runtime/trace/tables.h"
 
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/types.h"
+
 #include <cstddef>
 
 namespace weft::trace {

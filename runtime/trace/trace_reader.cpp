@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "runtime/error.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 

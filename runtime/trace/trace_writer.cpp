@@ -11,6 +11,10 @@
 
 #include "runtime/error.h"
 #include "runtime/io/background_writer.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
+#include "runtime/io/hdf5/growing_dataset.h"
 #include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 

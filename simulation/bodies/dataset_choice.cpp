@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "runtime/near_miss.h"
 
 namespace weft {

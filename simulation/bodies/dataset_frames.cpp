@@ -6,7 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "simulation/bodies/dataset_choice.h"
 #include "simulation/bodies/vtkhdf_frames.h"
 #include "simulation/mesh/mesh_text.h"

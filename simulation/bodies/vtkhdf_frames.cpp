@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "simulation/bodies/dataset_choice.h"
 
 namespace weft {

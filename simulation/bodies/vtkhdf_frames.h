@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/handle.h"
 #include "simulation/bodies/frame_files.h"
 
 namespace weft {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 
+#include "runtime/io/hdf5/handle.h"
 #include "runtime/trace/frame_rows.h"
 #include "runtime/trace/tables.h"
 #include "simulation/families/builder.h"

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 
 namespace weft {
 

@@ -6,6 +6,7 @@
 
 #include "runtime/error.h"
 #include "runtime/io/background_writer.h"
+#include "runtime/io/hdf5/handle.h"
 #include "simulation/output/chunk_codec.h"
 #include "simulation/output/vtkhdf_file.h"
 #include "simulation/output/xdmf_file.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/datasets.h"
 
 namespace weft {
 

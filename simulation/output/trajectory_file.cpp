@@ -4,6 +4,9 @@
 
 #include <array>
 
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "runtime/io/hdf5_file.h"
 #include "simulation/output/point_column.h"
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "simulation/output/chunk_codec.h"
 
 namespace weft {

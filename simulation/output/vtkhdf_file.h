@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/io/compression.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/growing_dataset.h"
 
 namespace weft {
 

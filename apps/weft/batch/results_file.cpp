@@ -4,6 +4,9 @@
 #include <limits>
 
 #include "apps/weft/batch/drive.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
 #include "runtime/io/hdf5_file.h"
 
 namespace weft::batch {

@@ -6,7 +6,8 @@
 #include <fstream>
 
 #include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/files.h"
 #include "runtime/trace/trace_reader.h"
 #include "runtime/trace/trace_writer.h"
 #include "tests/runtime/trace/synthetic_run.h"

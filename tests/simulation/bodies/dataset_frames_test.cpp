@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/datasets.h"
+#include "runtime/io/hdf5/files.h"
+#include "runtime/io/hdf5/growing_dataset.h"
 
 namespace weft {
 namespace {

@@ -11,7 +11,8 @@
 #include <random>
 
 #include "runtime/error.h"
-#include "runtime/io/hdf5.h"
+#include "runtime/io/hdf5/attributes.h"
+#include "runtime/io/hdf5/files.h"
 #include "simulation/output/geometry_reader.h"
 
 namespace weft {
