@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
-#include <stdexcept>
 
 #include "runtime/clock.h"
+#include "runtime/opencl/memory.h"
 #include "scheduler/assert.h"
 
 namespace weft {
@@ -30,29 +30,6 @@ void keep(Kept kept) {
     static auto* all = new std::vector<Kept>;  // never freed: the workers outlive statics
     const std::lock_guard lock(mutex);
     all->push_back(std::move(kept));
-}
-
-/// Mapped memory is the driver's, where it likes it best, and the host has its own beside it: while
-/// a device works on some ranges, the host and others have to write into others, and what the host
-/// writes into memory that is not mapped, a device need not see.
-cl_mem_flags flags_of(MemoryModel memory) {
-    switch (memory) {
-        case MemoryModel::kHost:
-            return CL_MEM_USE_HOST_PTR;
-        case MemoryModel::kMapped:
-            return CL_MEM_ALLOC_HOST_PTR | CL_MEM_COPY_HOST_PTR;
-        case MemoryModel::kDiscrete:
-            return CL_MEM_COPY_HOST_PTR;
-    }
-    throw std::logic_error("unknown memory model");
-}
-
-cl::Buffer make_memory(const OpenClTarget& target, const BufferStorage& buffer) {
-    // Zero copy asks for multiples of 64 bytes, and no size is 0. The host's memory has whole pages
-    // (BufferStorage), so it does not end before that.
-    const std::size_t bytes = std::max<std::size_t>((buffer.bytes() + 63) / 64 * 64, 64);
-    return cl::Buffer(target.context, CL_MEM_READ_WRITE | flags_of(target.info.memory), bytes,
-                      const_cast<void*>(buffer.host()));  // OpenCL has one pointer for both
 }
 
 /// What the host does with memory while it is mapped.
@@ -99,7 +76,8 @@ OpenClStream::~OpenClStream() {
 }
 
 OpenClStream::DeviceBuffer OpenClStream::bring(const BufferStorage& buffer) {
-    return {buffer.memory(), make_memory(target_, buffer), buffer.generation()};
+    return {buffer.memory(), make_memory(target_.context, target_.info.memory, buffer),
+            buffer.generation()};
 }
 
 const cl::Buffer& OpenClStream::memory_of(const BufferStorage& buffer) {
