@@ -39,6 +39,11 @@ WEFT_INLINE real3 cross3(real3 a, real3 b) {
 }
 WEFT_INLINE real length3(real3 a) { return square_root(dot3(a, a)); }
 
+/// What of a way leads along a surface. normal: of length 1
+WEFT_INLINE real3 along_surface(real3 way, real3 normal) {
+    return add_scaled(way, normal, -dot3(way, normal));
+}
+
 WEFT_INLINE real smaller(real a, real b) { return a < b ? a : b; }
 WEFT_INLINE real larger(real a, real b) { return a > b ? a : b; }
 /// |a|

@@ -65,7 +65,7 @@ WEFT_INLINE real3 way_of_part(WEFT_GLOBAL const float4* motions, int part_count,
 }
 
 /// Before the first round.
-/// sums     [12 * (parts + 1)] row-major: the moments of each part (moments.h)
+/// sums     [13 * (parts + 1)] row-major: the moments of each part (moments.h)
 /// first    [parts] its number
 /// motions  as in way_of_part; written
 WEFT_KERNEL(start_parts, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first,
@@ -131,7 +131,8 @@ WEFT_KERNEL(step_parts, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* f
         make_motion(xyz(load4(motions, i)), xyz(load4(motions, column(i, part_count + 1, 1))));
     const real3 force = add(subtract(m.lag, done.shift), ties.pull.shift);
     const real3 torque = add(lag_of_turn(m, done.turn), ties.pull.turn);
-    const sym6 form = add_scaled_sym6(own_form_of(m), form_of_places(ties.stiff), splat(1.0f));
+    const sym6 form =
+        add_scaled_sym6(own_form_of(m, m.hold), form_of_places(ties.stiff), splat(1.0f));
     done = add_scaled_motion(done, solve_sym6(form, make_motion(force, torque)), splat(1.0f));
     done.turn = bounded_turn(done.turn);
     store_motion(motions, part_count + 1, i, done);

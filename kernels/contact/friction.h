@@ -31,11 +31,6 @@ WEFT_INLINE real friction_potential(real slip, real creep) {
     return slip < creep ? creep * y * y * (splat(1.0f) - third * y) : slip - third * creep;
 }
 
-/// What of a way leads along a surface. normal: of length 1
-WEFT_INLINE real3 along_surface(real3 way, real3 normal) {
-    return add_scaled(way, normal, -dot3(way, normal));
-}
-
 WEFT_KERNELS_END
 
 #endif

@@ -50,6 +50,13 @@ WEFT_KERNEL(copy_positions, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL flo
     store4(copy, i, load4(positions, i));
 }
 
+/// Nothing presses yet.
+/// pressing  [vertices] written (obstacles/contact.h)
+WEFT_KERNEL(start_pressing, WEFT_GLOBAL float4* pressing) {
+    const real zero = splat(0.0f);
+    store4(pressing, i, with_w(make3(zero, zero, zero), zero));
+}
+
 /// x~ of free vertices that are there by now, of bodies that are never turned.
 /// positions  [vertices] xyz: x~ [m]
 /// targets    [vertices] written: xyz: x~; w: no grip

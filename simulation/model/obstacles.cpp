@@ -26,7 +26,7 @@ Launch launch_for(const Obstacle& obstacle, LaunchShape launch_shape) {
 int told_of(const PushedTargets& pushed) {
     if (pushed.targets == nullptr) return WEFT_PUSH_ALONE;
     if (pushed.are_last) return WEFT_PUSH_LAST;
-    return WEFT_PUSH_LEADS;
+    return pushed.pressing == nullptr ? WEFT_PUSH_LEADS : WEFT_PUSH_PRESSES;
 }
 
 void write_rows(float4* rows, const Mat3& rotation, Vec3 translation) {
@@ -141,12 +141,13 @@ void Obstacles::add_launches(std::vector<Launch>& launches, const Segments& vert
 Launch Obstacles::launch_push(int obstacle, const Segments& vertices, Buffer<float4>& positions,
                               Buffer<float4>& previous, const PushedTargets& pushed) {
     Buffer<float4>& targets = pushed.targets ? *pushed.targets : positions;
+    Buffer<float4>& pressing = pushed.pressing ? *pushed.pressing : targets;
     const bool have_planes = narrow_ && pushed.have_planes;
     Buffer<float4>& planes = have_planes ? narrow_->planes() : previous;
     const int vertex_count = have_planes ? narrow_->vertex_count() : 0;
     const int narrow = have_planes ? narrow_->number_of(obstacle) : -1;
     return launch_for(obstacles_[static_cast<std::size_t>(obstacle)], [&](auto kernel) {
-        return launch(kernel, vertices, positions, previous, targets, placements_, planes,
+        return launch(kernel, vertices, positions, previous, targets, pressing, placements_, planes,
                       told_of(pushed), vertex_count, narrow, count(), obstacle, kInstance);
     });
 }

@@ -12,9 +12,10 @@ namespace weft {
 
 /// What obstacles push besides positions (kernels/obstacles/contact.h).
 struct PushedTargets {
-    Buffer<float4>* targets = nullptr;  ///< [vertices] x~ and grip; null: they are not told
-    bool are_last = false;              ///< behind the step of bodies as wholes; x~ stays
-    bool have_planes = false;           ///< of narrow obstacles: they are found by now
+    Buffer<float4>* targets = nullptr;   ///< [vertices] x~ and grip; null: they are not told
+    Buffer<float4>* pressing = nullptr;  ///< [vertices] what presses; null: nobody asks
+    bool are_last = false;               ///< behind the step of bodies as wholes; x~ stays
+    bool have_planes = false;            ///< of narrow obstacles: they are found by now
 };
 
 /// The obstacles of a scene on the devices: where each is in every substep of a frame.

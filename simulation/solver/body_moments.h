@@ -18,7 +18,7 @@ public:
     Launch weigh(const Segments& all);
     void add_weigh_accesses(Step::Adding& task);
 
-    /// [12 * (bodies + 1)] see the kernel
+    /// [13 * (bodies + 1)] see the kernel
     Buffer<float4>& moments() { return moments_; }
     void add_reads(Step::Adding& task);
 

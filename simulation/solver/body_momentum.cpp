@@ -25,34 +25,41 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
     if (free_bodies_ && model.obstacles)
         starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
+    if (starts_ && free_bodies_->has_solids() && !multipliers)
+        pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
 }
 
 void BodyMomentum::keep_starts(std::vector<Launch>& launches) {
     if (!starts_) return;
     launches.push_back(launch(kernels::copy_positions, model_.vertices(), targets_, *starts_));
+    if (pressing_)
+        launches.push_back(launch(kernels::start_pressing, model_.vertices(), *pressing_));
 }
 
 void BodyMomentum::add_start_accesses(Step::Adding& task, int first, int last) {
     if (starts_) task.updates(*starts_, first, last);
+    if (pressing_) task.updates(*pressing_, first, last);
 }
 
 void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {
     if (!model_.obstacles) return;
     model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous,
-                                   {&targets_, false});
+                                   {.targets = &targets_, .pressing = pressing_.get()});
 }
 
 void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last) {
     if (!model_.obstacles) return;
     task.updates(targets_, first, last).reads(*model_.previous, first, last);
+    if (pressing_) task.updates(*pressing_, first, last);
 }
 
 void BodyMomentum::look_at(Buffer<float4>& positions) {
     positions_ = &positions;
+    const ObstaclePushes pushes{starts_.get(), pressing_.get()};
     if (touching_)
-        sums_.launches = touching_->sum(positions, targets_, starts_.get(), sums_.kind);
+        sums_.launches = touching_->sum(positions, targets_, pushes, sums_.kind);
     else if (lone_)
-        sums_.launches = lone_->sums().sum(model_, positions, targets_, starts_.get());
+        sums_.launches = lone_->sums().sum(model_, positions, targets_, pushes);
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
@@ -81,7 +88,7 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *moved_));
     if (model_.obstacles) {
         model_.obstacles->add_launches(launches, model_.vertices(), *model_.positions,
-                                       *model_.previous, {&targets_, true});
+                                       *model_.previous, {.targets = &targets_, .are_last = true});
     }
     if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,

@@ -35,6 +35,8 @@ public:
 
     /// x~ before obstacles have pushed; null: they push nothing that is free.
     Buffer<float4>* starts() { return starts_.get(); }
+    /// What obstacles press, of a substep (kernels/obstacles/contact.h); null: nobody asks.
+    Buffer<float4>* pressing() { return pressing_.get(); }
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
@@ -65,6 +67,7 @@ private:
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or contacts
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
     std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: none of bodies
+    std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no body is turned while it is pushed
     TaskBody sums_;                             ///< empty: no free bodies
 };
 

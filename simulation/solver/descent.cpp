@@ -29,8 +29,9 @@ void DescentSubstep::add_start(Step& step) {
 }
 
 void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots) {
-    narrow_ = NarrowTask::of(model_, {std::move(iterates), &targets_, contact_.get(), snapshots},
-                             next_kind());
+    narrow_ = NarrowTask::of(
+        model_, {std::move(iterates), &targets_, momentum_.pressing(), contact_.get(), snapshots},
+        next_kind());
 }
 
 void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& derivatives,

@@ -32,13 +32,16 @@ MomentSums::MomentSums(FreeBodies& bodies, PushedSolids solids)
 }
 
 std::vector<Launch> MomentSums::sum(Model& model, Buffer<float4>& positions,
-                                    Buffer<float4>& targets, Buffer<float4>* starts) {
+                                    Buffer<float4>& targets, const ObstaclePushes& pushes) {
     model_ = &model;
-    starts_ = starts;
+    pushes_ = pushes;
     const BodyColumns columns = bodies_.columns();
+    const bool are_pushed = pushes.starts != nullptr;
+    Buffer<float4>& starts = are_pushed ? *pushes.starts : targets;
+    Buffer<float4>& pressing = pushes.pressing != nullptr ? *pushes.pressing : targets;
     return {launch(kernels::add_moments, columns.by_strip, positions, targets,
-                   starts ? *model.previous : targets, starts ? *starts : targets, columns.members,
-                   columns.shares, columns.rows, origins_, firm_, partials_, starts ? 1 : 0,
+                   are_pushed ? *model.previous : targets, starts, pressing, columns.members,
+                   columns.shares, columns.rows, origins_, firm_, partials_, are_pushed ? 1 : 0,
                    columns.count),
             bodies_.add_columns(partials_, sums_, {kParts, 1, kParts})};
 }
@@ -46,11 +49,12 @@ std::vector<Launch> MomentSums::sum(Model& model, Buffer<float4>& positions,
 void MomentSums::add_sum_accesses(Step::Adding& task, const Region& region) {
     const auto [first, end] = bodies_.runs_in(region.begin, region.end);
     task.updates(sums_, kParts * first, kParts * end);
-    if (starts_ == nullptr) return;
+    if (pushes_.starts == nullptr) return;
     const int first_vertex = model_->vertices().item(region.begin);
     const int end_vertex = model_->vertices().item(region.end);
     task.reads(*model_->previous, first_vertex, end_vertex)
-        .reads(*starts_, first_vertex, end_vertex);
+        .reads(*pushes_.starts, first_vertex, end_vertex);
+    if (pushes_.pressing) task.reads(*pushes_.pressing, first_vertex, end_vertex);
 }
 
 void MomentSums::add_origin_reads(Step::Adding& task, const Region& region,

@@ -37,8 +37,9 @@ std::vector<Launch> NarrowTask::find(Buffer<float4>& positions, bool notes) {
 
 std::vector<Launch> NarrowTask::push(Buffer<float4>& positions) {
     std::vector<Launch> launches;
-    model_.obstacles->add_launches(launches, model_.vertices(), positions, *model_.previous,
-                                   {.targets = setting_.targets, .have_planes = true});
+    model_.obstacles->add_launches(
+        launches, model_.vertices(), positions, *model_.previous,
+        {.targets = setting_.targets, .pressing = setting_.pressing, .have_planes = true});
     return launches;
 }
 
@@ -102,6 +103,7 @@ Step::Adding NarrowTask::add_push(Step& step, const TaskBody& body, const Region
     auto task = step.add(body, iteration, region.strips(), region.id);
     task.updates(*setting_.iterates[iterate], first, last).reads(*model_.previous, first, last);
     if (setting_.targets != nullptr) task.updates(*setting_.targets, first, last);
+    if (setting_.pressing != nullptr) task.updates(*setting_.pressing, first, last);
     add_columns(task, narrow.planes(), narrow.vertex_count(), narrow.count(), first, last, false);
     return task;
 }

@@ -22,6 +22,7 @@ public:
         /// [vertices] each; where the iterates are, in turn
         std::vector<Buffer<float4>*> iterates;
         Buffer<float4>* targets = nullptr;   ///< [vertices] x~, which pushes lead; null: none
+        Buffer<float4>* pressing = nullptr;  ///< [vertices] what presses; null: nobody asks
         ContactResponse* contact = nullptr;  ///< that has the last word; null: none
         bool snapshots = false;              ///< for contacts, behind what they say
     };

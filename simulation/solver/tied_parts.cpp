@@ -150,7 +150,8 @@ std::vector<Launch> TiedParts::launches(int rounds) {
     const int columns = kColumns * part_count_;
     std::vector<Launch> list{
         launch(kernels::add_moments, each_column_.segments(), *model_.positions, targets_, targets_,
-               targets_, members_, shares_, member_rows_, origins_, firm_, partials_, 0, columns),
+               targets_, targets_, members_, shares_, member_rows_, origins_, firm_, partials_, 0,
+               columns),
         launch(kernels::add_columns, each_sum_.segments(), partials_, sum_starts_, sum_places_,
                sums_),
         launch(kernels::start_parts, each_part_.segments(), sums_, first_, motions_, part_count_)};

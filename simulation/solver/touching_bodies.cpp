@@ -59,6 +59,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
       bearings_("touching.bearings", motions_.count()),
+      slides_("touching.slides", motions_.count() / 2),
       moments_(bodies, multipliers ? PushedSolids::kShifted : PushedSolids::kTurned, first_run_,
                counts_),
       begin_("touching.begin", model.strips.begin.size()) {
@@ -92,8 +93,8 @@ void TouchingBodies::number_bodies(const Model& model) {
 std::vector<Launch> TouchingBodies::solve(int has_moved) {
     return {
         launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
-               moments_.moments(), motions_, strains_, rests_, bearings_, has_moved, is_rubbed_,
-               bodies_.most_runs(), lag_count_, body_count()),
+               moments_.moments(), motions_, strains_, rests_, bearings_, slides_, has_moved,
+               is_rubbed_, bodies_.most_runs(), lag_count_, body_count()),
         launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
                groups_.counts, groups_.members, group_motions_, body_count(), kInstance),
         launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_, moments_.moments(),
@@ -114,9 +115,9 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 }
 
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                                        Buffer<float4>* starts, int kind) {
+                                        const ObstaclePushes& obstacles, int kind) {
     targets_ = &targets;
-    collect_.launches = moments_.sums().sum(model_, positions, targets, starts);
+    collect_.launches = moments_.sums().sum(model_, positions, targets, obstacles);
     if (solids_)
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
                           std::back_inserter(collect_.launches));
@@ -189,11 +190,12 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
     for (Buffer<float4>* written : {&motions_, &strains_, &rests_, &group_motions_, &bearings_}) {
         task.updates(*written, 0, static_cast<int>(written->count()));
     }
+    task.updates(slides_, 0, static_cast<int>(slides_.count()));
 }
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
-                  *model.velocities, motions_, strains_, moments_.moments(), body_of_,
+                  *model.velocities, motions_, strains_, moments_.moments(), slides_, body_of_,
                   static_cast<float>(1.0 / model.h), body_count());
 }
 
@@ -202,6 +204,7 @@ void TouchingBodies::add_motion_accesses(Step::Adding& task) {
     moments_.add_reads(task);
     task.reads(motions_, 0, static_cast<int>(motions_.count()));
     task.reads(strains_, 0, static_cast<int>(strains_.count()));
+    task.reads(slides_, 0, static_cast<int>(slides_.count()));
 }
 
 }  // namespace weft

@@ -23,7 +23,7 @@ public:
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
-                            Buffer<float4>* starts, int kind);
+                            const ObstaclePushes& obstacles, int kind);
     /// All rounds: sums, each followed by steps. body: with what sum() gave
     void add_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions,
                     Buffer<float4>& positions, int iteration);
@@ -68,6 +68,7 @@ private:
     Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
     Buffer<float4> strains_;        ///< [2 * (bodies + 1)]
     Buffer<float4> bearings_;       ///< [2 * (bodies + 1)]
+    Buffer<float> slides_;          ///< [bodies + 1]
     BodyMoments moments_;
     Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0
     std::unique_ptr<BodyStrains> solids_;  ///< null: only cloth is free

@@ -60,9 +60,11 @@ public:
         if (contact_) make_push();
         if (has_rounds_) make_round();
         make_velocities();
-        narrow_ =
-            NarrowTask::of(model, {{model.positions.get()}, targets_.get(), contact_.get(), false},
-                           static_cast<int>(kinds_.size()));
+        narrow_ = NarrowTask::of(model,
+                                 {.iterates = {model.positions.get()},
+                                  .targets = targets_.get(),
+                                  .contact = contact_.get()},
+                                 static_cast<int>(kinds_.size()));
         if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds_));
     }
 

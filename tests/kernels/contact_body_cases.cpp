@@ -77,14 +77,15 @@ void moments_case(KernelCase& c) {
     auto& targets = add_points(c, "targets", c.items);
     auto& previous = add_points(c, "previous", c.items);
     auto& starts = add_points(c, "starts", c.items);
+    auto& pressing = add_points(c, "pressing", c.items);
     Columns columns(c);
     auto& origins = add_indices(c, "origins", c.items, c.items);
     auto& firm = c.add<float>("firm", c.items);
     for (float& is_firm : firm.span()) is_firm = static_cast<float>(c.random.integer(0, 1));
     auto& partials = c.add<float4>("partials", WEFT_MOMENT_PARTS * c.items);
     c.launch = launch(kernels::add_moments, c.segments, positions, targets, previous, starts,
-                      columns.members, columns.shares, columns.rows, origins, firm, partials,
-                      c.random.integer(0, 1), c.items);
+                      pressing, columns.members, columns.shares, columns.rows, origins, firm,
+                      partials, c.random.integer(0, 1), c.items);
 }
 
 /// The runs of bodies.
@@ -158,6 +159,12 @@ void fill_forms(KernelCase& c, Buffer<float4>& forms, int rows, int first) {
     }
 }
 
+Buffer<float>& add_flags(KernelCase& c, int bodies) {
+    auto& flags = c.add<float>("slides", bodies);
+    for (float& flag : flags.span()) flag = static_cast<float>(c.random.integer(0, 1));
+    return flags;
+}
+
 void bodies_case(KernelCase& c) {
     const int lag_count = c.items + Runs::kMost;
     auto& lags = c.add<float4>("lags", WEFT_RUBBED_BODY_PARTS * lag_count);
@@ -173,8 +180,9 @@ void bodies_case(KernelCase& c) {
     auto& strains = add_points(c, "strains", 2 * (c.items + 1));
     auto& rests = c.add<float4>("rests", 7 * c.items);
     auto& bearings = add_points(c, "bearings", 2 * (c.items + 1));
+    auto& slides = add_flags(c, c.items + 1);
     c.launch = launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses,
-                      moments, motions, strains, rests, bearings, c.random.integer(0, 1),
+                      moments, motions, strains, rests, bearings, slides, c.random.integer(0, 1),
                       c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
 }
 
@@ -258,7 +266,7 @@ void move_case(KernelCase& c) {
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      strains, moments, bodies, 240.0f, kBodies);
+                      strains, moments, add_flags(c, kBodies + 1), bodies, 240.0f, kBodies);
 }
 
 const bool added =

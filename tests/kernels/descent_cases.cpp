@@ -222,6 +222,11 @@ void copy_case(KernelCase& c) {
     c.launch = launch(kernels::copy_positions, c.segments, positions, copy);
 }
 
+void start_pressing_case(KernelCase& c) {
+    auto& pressing = add_positions(c);
+    c.launch = launch(kernels::start_pressing, c.segments, pressing);
+}
+
 void start_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& targets = c.add<float4>("targets", 2 * c.items);
@@ -261,6 +266,7 @@ const bool added =
     add_case("solve_tetrahedron_stencils", tetrahedron_stencils_case) &&
     add_case("begin_descent", begin_case) && add_case("keep_deviation", keep_case) &&
     add_case("copy_positions", copy_case) && add_case("start_targets", start_case) &&
+    add_case("start_pressing", start_pressing_case) &&
     add_case("lead_by_reactions", reactions_case);
 
 }  // namespace

@@ -69,8 +69,9 @@ struct Meeting {
         Buffer<float4> far("obstacles", WEFT_OBSTACLE_ROWS);
         std::copy(rows.data(), rows.data() + WEFT_OBSTACLE_ROWS, far.data());
         far[6].x = -1000.0f;
-        const Launch launched = launch(kernels::push_out_of_sphere, Segments{}, positions, previous,
-                                       previous, far, planes, WEFT_PUSH_ALONE, 3, 0, 1, 0, 0);
+        const Launch launched =
+            launch(kernels::push_out_of_sphere, Segments{}, positions, previous, previous, previous,
+                   far, planes, WEFT_PUSH_ALONE, 3, 0, 1, 0, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 3);
     }
     void keep_out(int rounds) {

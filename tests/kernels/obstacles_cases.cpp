@@ -111,12 +111,18 @@ Buffer<float4>& add_planes(KernelCase& c, const Buffer<float4>& positions) {
 void push_case(KernelCase& c, Buffer<float4>& obstacles) {
     const Moved moved = add_moved(c);
     auto& targets = add_targets(c);
+    auto& pressing = c.add<float4>("pressing", static_cast<int>(targets.count()));
+    for (float4& pressed : pressing.span()) pressed = c.random.point(0.01f);
     auto& planes = add_planes(c, moved.positions);
-    c.launch.arguments = {
-        {&moved.positions}, {&moved.previous},
-        {&targets},         {&obstacles},
-        {&planes},          whole(c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST)),
-        whole(c.items),     whole(c.random.integer(-1, 1))};
+    c.launch.arguments = {{&moved.positions},
+                          {&moved.previous},
+                          {&targets},
+                          {&pressing},
+                          {&obstacles},
+                          {&planes},
+                          whole(c.random.integer(WEFT_PUSH_ALONE, WEFT_PUSH_LAST)),
+                          whole(c.items),
+                          whole(c.random.integer(-1, 1))};
 }
 
 /// Triangles between any vertices, up to four at each; some have no area.

@@ -26,6 +26,7 @@ struct Contact {
     Buffer<float4> positions{"positions", 1};
     Buffer<float4> previous{"previous", 1};
     Buffer<float4> targets{"targets", 1};
+    Buffer<float4> pressing{"pressing", 1};
     Buffer<float4> rows{"obstacles", WEFT_OBSTACLE_ROWS};
 
     Contact(Vec3 point, float4 dimensions, float inverse_mass = 1.0f) {
@@ -47,9 +48,9 @@ struct Contact {
     }
     template <class Kernel>
     Vec3 rub(Kernel kernel, int told = WEFT_PUSH_ALONE) {
-        const Launch push =
-            launch(kernel, Segments{}, positions, previous, targets, rows, previous, told, 1,
-                   /*narrow=*/-1, 1, 0, 0);
+        const Launch push = launch(kernel, Segments{}, positions, previous, targets, pressing, rows,
+                                   previous, told, 1,
+                                   /*narrow=*/-1, 1, 0, 0);
         run_on_host(push, push.kernel->scalar, 0, 1);
         return vec(positions[0]);
     }

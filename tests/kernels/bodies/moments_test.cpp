@@ -25,7 +25,7 @@ Eigen::Vector3d in_double(real3 v) { return {v.x, v.y, v.z}; }
 struct Cloud {
     static constexpr int kColumns = WEFT_RUN_COLUMNS;
     int count;
-    Buffer<float4> positions, targets, previous, unpushed;
+    Buffer<float4> positions, targets, previous, unpushed, pressing;
     Buffer<int> members{"members", kColumns}, rows{"rows", 2 * kColumns},
         origins{"origins", kColumns}, first_run{"first_run", 1},
         starts{"starts", WEFT_MOMENT_PARTS}, places{"places", WEFT_MOMENT_PARTS};
@@ -38,7 +38,8 @@ struct Cloud {
           positions("positions", static_cast<std::size_t>(vertices)),
           targets("targets", positions.count()),
           previous("previous", positions.count()),
-          unpushed("unpushed", positions.count()) {
+          unpushed("unpushed", positions.count()),
+          pressing("pressing", positions.count()) {
         counts[0] = 1.0f;
         for (int part = 0; part < WEFT_MOMENT_PARTS; ++part) {
             starts[static_cast<std::size_t>(part)] = kColumns * part;
@@ -59,7 +60,7 @@ struct Cloud {
 
     moments weigh() {
         run(launch(kernels::add_moments, Segments{}, positions, targets, previous, unpushed,
-                   members, shares, rows, origins, firm, partials, 1, kColumns),
+                   pressing, members, shares, rows, origins, firm, partials, 1, kColumns),
             kColumns);
         run(launch(kernels::add_columns, Segments{}, partials, starts, places, sums),
             WEFT_MOMENT_PARTS);
@@ -233,7 +234,7 @@ TEST(BodyMoments, ClothThatIsPushedIsNotTurned) {
     const moments found = heap.weigh();
     EXPECT_EQ(found.hold.part, 0.0f);
     EXPECT_GT(found.pushed, 0.0f);
-    const body_motion motion = missing_motion(found, {make3(0.001f, 0.0f, 0.002f), 0.0f});
+    const body_motion motion = missing_motion(found, {make3(0.001f, 0.0f, 0.002f), 0.0f}).motion;
     EXPECT_EQ(length3(motion.turn), 0.0f);
     EXPECT_EQ(motion.shift.x, 0.001f);
     EXPECT_EQ(motion.shift.z, 0.002f);
@@ -244,7 +245,7 @@ TEST(BodyMoments, TheStepOfASolidGoesRoundWhatIsHeld) {
     LyingHeap heap(1.0f);
     const moments found = heap.weigh();
     const real3 shift = make3(0.001f, 0.0005f, 0.002f);
-    const body_motion motion = missing_motion(found, {shift, 0.0f});
+    const body_motion motion = missing_motion(found, {shift, 0.0f}).motion;
     LyingHeap::Form form = WEFT_HELD_WEIGHT * heap.form(LyingHeap::kHeld);
     form += heap.form(heap.count);
     Eigen::Matrix<double, 6, 1> lag;
@@ -262,7 +263,7 @@ body_motion push_end(Cloud& cloud, real3 normal) {
     const moments body = cloud.weigh();
     Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 7), motions("motions", 4),
         strains("strains", 4), bearings("bearings", 4);
-    Buffer<float> masses("masses", 1);
+    Buffer<float> masses("masses", 1), slides("slides", 2);
     masses[0] = 1.0f;
     const real3 lever = subtract(xyz(gather4(cloud.positions.data(), 0)), body.centre);
     const sym6 form = form_at_lever(outer_sym(normal, 10.0f), lever);
@@ -271,9 +272,10 @@ body_motion push_end(Cloud& cloud, real3 normal) {
     const real3 force = scale(normal, 1e-3f);
     store4(lags.data(), column(first, 2, 5), with_w(force, form.mixed.z.z));
     store4(lags.data(), column(first, 2, 6), with_w(cross3(lever, force), 0.0f));
-    Cloud::run(launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts,
-                      masses, cloud.table, motions, strains, rests, bearings, 0, 0, 1, 2, 1),
-               1);
+    Cloud::run(
+        launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts, masses,
+               cloud.table, motions, strains, rests, bearings, slides, 0, 0, 1, 2, 1),
+        1);
     for (const float4& rest : rests.span()) EXPECT_TRUE(std::isfinite(rest.x + rest.y + rest.z));
     return gather_motion(motions.data(), 2, 0);
 }

@@ -21,7 +21,7 @@ struct OneBody {
     Buffer<float4> lags{"lags", 2 * WEFT_BODY_PARTS}, rests{"rests", 7}, motions{"motions", 4},
         strains{"strains", 4}, bearings{"bearings", 4}, moments{"moments", 2 * WEFT_MOMENT_PARTS};
     Buffer<int> first{"first_run", 1};
-    Buffer<float> counts{"counts", 1}, masses{"masses", 1};
+    Buffer<float> counts{"counts", 1}, masses{"masses", 1}, slides{"slides", 2};
 
     OneBody() { counts[0] = masses[0] = 1.0f; }
 
@@ -30,7 +30,7 @@ struct OneBody {
     void solve(int has_moved) {
         const Launch launched =
             launch(kernels::solve_bodies, Segments{}, lags, first, counts, masses, moments, motions,
-                   strains, rests, bearings, has_moved, 0, 1, 2, 1);
+                   strains, rests, bearings, slides, has_moved, 0, 1, 2, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
     }
 };
@@ -48,8 +48,8 @@ TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
 }
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
-    Buffer<float4> standing("standing", 1), motions("motions", 4), moments("moments", 12),
-        strains("strains", 4), bearings("bearings", 4);
+    Buffer<float4> standing("standing", 1), motions("motions", 4),
+        moments("moments", WEFT_MOMENT_PARTS), strains("strains", 4), bearings("bearings", 4);
     standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
     Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
     Buffer<float> masses("masses", 1), presses("presses", 1);

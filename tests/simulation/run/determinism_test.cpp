@@ -37,7 +37,7 @@ const TestScene kScenes[] = {
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "d636f27ba0f14dcba17e327f1b7d8556"},
     {"VbdTouching", kTouching, Method::kVbd, "61d25260c8f0ca47fba211f779519cd9"},
-    {"VbdLying", kLying, Method::kVbd, "6c743da3b9c27d377e6faa6b8e68461e"},
+    {"VbdLying", kLying, Method::kVbd, "50a33ac2b022dec94c477e0420132a97"},
     {"VbdRubbing", kRubbing, Method::kVbd, "76cb60e4f641ea830155793cc4d777fc"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "b97ad592ac9156c064fb7d8f79410451"},
     {"XpbdSheets", kSheets, Method::kXpbd, "2cbee576a4dd46ee02d87e1460cb2204"},
@@ -61,10 +61,10 @@ const TestScene kScenes[] = {
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},
     {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "e3b5443f5fafb11fe112237e2523c804"},
-    {"VbdNarrow", kNarrow, Method::kVbd, "51939b6a496f592b9508a8a83a31bc7f"},
-    {"SosdNarrow", kNarrow, Method::kSosd, "2eb25948c378e1d834133b03fca99324"},
-    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "cf273dced58ab1375d9c1e5e25dd701c"},
-    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "48dcfac8993ac9549852c519cd968d11"},
+    {"VbdNarrow", kNarrow, Method::kVbd, "148b09146b7c8c0862b67c26455c12ef"},
+    {"SosdNarrow", kNarrow, Method::kSosd, "bd92f2d2f99dbb2d1a9f3bf4bbf64a21"},
+    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "c7f64f7cdb14073a0ffc872a49752d82"},
+    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "9046c74d77a810477ec5941c990a1b3b"},
     {"JpgdWoven", kWoven, Method::kJpgd, "07f820a0af9a8e04d2f4773335a1bb4b"},
 };
 
