@@ -10,31 +10,46 @@ namespace weft {
 
 namespace {
 
-/// Of cloths and solids. An edge inside a surface counts twice, one at a border once.
-double mean_edge(const Gathered& all) {
-    double sum = 0.0;
+/// Of the surfaces of cloths and solids. An edge inside a surface counts twice, one at a border
+/// once.
+struct EdgeLengths {
+    double mean = 0.0, shortest = std::numeric_limits<double>::infinity();  ///< [m]
+};
+
+EdgeLengths edge_lengths(const Gathered& all) {
+    EdgeLengths lengths;
     const std::size_t count =
         all.triangles.size() - static_cast<std::size_t>(all.obstacle_triangles.count());
     for (const auto& t : std::span(all.triangles).first(count)) {  // obstacles come last
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = static_cast<std::size_t>(t[k]);
             const auto b = static_cast<std::size_t>(t[(k + 1) % 3]);
-            sum += length(all.rest[b] - all.rest[a]);
+            const double own = length(all.rest[b] - all.rest[a]);
+            lengths.mean += own / static_cast<double>(3 * count);
+            lengths.shortest = std::min(lengths.shortest, own);
         }
     }
-    return sum / static_cast<double>(3 * count);
+    return lengths;
+}
+
+/// A quarter of the mean edge. What is on both sides of an edge is as near to each other as it is
+/// long, and should not push: in irregular meshes it is less for that, unless the edge is a
+/// sliver's.
+double good_thickness(const EdgeLengths& lengths) {
+    constexpr double kOfShortest = 0.9, kLeast = 0.1, kMost = 0.25;
+    return std::clamp(kOfShortest * lengths.shortest, kLeast * lengths.mean, kMost * lengths.mean);
 }
 
 }  // namespace
 
 void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings) {
-    const double edge = mean_edge(all);
-    if (contact.thickness == 0.0) contact.thickness = 0.25 * edge;
-    if (contact.thickness <= 0.5 * edge) return;
+    const EdgeLengths edge = edge_lengths(all);
+    if (contact.thickness == 0.0) contact.thickness = good_thickness(edge);
+    if (contact.thickness <= 0.5 * edge.mean) return;
     warnings.push_back(fmt::format(
         "contact.thickness = {:.3g} m is more than half of the mean edge ({:.3g} m): a surface may "
-        "push its own neighbours; a quarter of the edge is a good choice, or a finer mesh",
-        contact.thickness, edge));
+        "push its own neighbours; {:.3g} m is a good choice, or a finer mesh",
+        contact.thickness, edge.mean, good_thickness(edge)));
 }
 
 double contact_floor(double thickness, double reach) {

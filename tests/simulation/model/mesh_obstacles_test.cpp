@@ -71,6 +71,24 @@ TEST(MeshObstacles, AreVerticesThatNothingMoves) {
     EXPECT_NEAR(model.scene.contact->thickness, 0.25 * 0.25 * (2.0 + std::sqrt(2.0)) / 3.0, 1e-6);
 }
 
+/// What is on both sides of a short edge is near, and should not push; a sliver's is no measure.
+TEST(ContactThickness, IsLessThanTheShortestEdge) {
+    const auto thickness_with = [](int layers) {
+        const std::string text =
+            "[scene]\nframes = 1\ndt = 0.01\n[contact]\n[[solid]]\n"
+            "density = 100.0\nyoung = 1.0e5\npoisson = 0.3\n"
+            "grid = { size = [1.0, 1.0, 1.0], resolution = [3, 3, " +
+            std::to_string(layers) + "] }\n";
+        Warnings warnings;
+        return Model(parse_scene(text, "s.toml"), warnings).scene.contact->thickness;
+    };
+    EXPECT_GT(thickness_with(3), 0.25 * 0.5);
+    EXPECT_NEAR(thickness_with(11), 0.9 * 0.1, 1e-6);
+    const double of_slivers = thickness_with(201);
+    EXPECT_GT(of_slivers, 0.02);
+    EXPECT_LT(of_slivers, 0.06);
+}
+
 TEST(MeshObstacles, NeedContactAndOneShape) {
     EXPECT_NE(message_of(scene_with(kFunnel, "")).find("is touched by [contact] alone"),
               std::string::npos);
