@@ -171,13 +171,29 @@ TEST(Obstacles, FrictionHoldsNothingThatIsLiftedOff) {
 }
 
 TEST(Obstacles, PushesLeadTargetsAlong) {
-    for (const int told : {WEFT_PUSH_ALONE, WEFT_PUSH_LEADS, WEFT_PUSH_LAST}) {
+    for (const int told : {WEFT_PUSH_ALONE, WEFT_PUSH_LEADS, WEFT_PUSH_PRESSES, WEFT_PUSH_LAST}) {
         Contact contact({0.05, -0.225, 0}, {});
         contact.previous[0].x = 0.0f;
         contact.targets[0] = {0.5f, -0.5f, 0.25f, 0.0f};
         contact.rub(kernels::push_out_of_plane, told);
-        const Vec3 led = told == WEFT_PUSH_LEADS ? Vec3{-0.05, 0.35, 0.0} : Vec3{};
+        const bool leads = told == WEFT_PUSH_LEADS || told == WEFT_PUSH_PRESSES;
+        const Vec3 led = leads ? Vec3{-0.05, 0.35, 0.0} : Vec3{};
         expect_at(vec(contact.targets[0]), Vec3{0.5, -0.5, 0.25} + led);
+    }
+}
+
+/// Across the surface, whatever friction does beside it.
+TEST(Obstacles, WhatPressesAddsUp) {
+    Contact contact({0.05, -0.225, 0}, {});
+    contact.previous[0].x = 0.0f;
+    contact.rub(kernels::push_out_of_plane, WEFT_PUSH_LEADS);
+    EXPECT_EQ(contact.pressing[0].w, 0.0f) << "nobody asks";
+    contact.positions[0].y = -0.225f;
+    for (int push = 1; push <= 2; ++push) {
+        contact.rub(kernels::push_out_of_plane, WEFT_PUSH_PRESSES);
+        expect_at(vec(contact.pressing[0]), {0.0, push * 0.35, 0.0});
+        EXPECT_NEAR(contact.pressing[0].w, kFriction * push * 0.35f, 1e-6);
+        contact.positions[0].y = -0.225f;
     }
 }
 
