@@ -38,9 +38,10 @@ WEFT_INLINE sliding sliding_of(moments m, borne_lag borne, real3 kept) {
     return s;
 }
 
-/// A body does not slide where friction leads it to, but for a tenth of that, as much as pushes may
-/// be wrong by: without it, what lies crept, and with nothing, what should slide stuck in long
-/// steps (docs/measurements.md, "What slides down a slope").
+/// A body does not slide where friction leads it to: then it has been pushed too far, and lies. As
+/// pushes are wrong by something, it may, by a tenth of what friction does. Where it may by any
+/// more, what lies creeps; where it may not at all, what should slide sticks in long steps
+/// (docs/measurements.md, "What slides down a slope").
 /// slid  how it would move, all in all
 WEFT_INLINE sliding against_friction(sliding s, body_motion slid) {
     const real most = splat(0.1f) * dot3(s.rubbing, s.rubbing);

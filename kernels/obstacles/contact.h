@@ -91,7 +91,7 @@ WEFT_INLINE real3 slid_along(WEFT_GLOBAL const float4* obstacle, real3 pushed, r
                              real3 normal) {
     const real3 carried = apply(obstacle + 3, apply(obstacle, pushed));
     const real3 way = subtract(carried, previous);
-    return add_scaled(way, normal, -dot3(way, normal));
+    return along_surface(way, normal);
 }
 
 /// The part of it that friction takes back, which reaches so far [m] at the most.
