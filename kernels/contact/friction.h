@@ -20,8 +20,8 @@ WEFT_KERNELS_BEGIN
 /// slip   |u| [m]
 /// creep  e [m], > 0
 WEFT_INLINE real friction_grip(real slip, real creep) {
-    const real sliding = splat(1.0f) / larger(slip, creep);
-    return slip < creep ? (splat(2.0f) - slip / creep) / creep : sliding;
+    const real beyond = splat(1.0f) / larger(slip, creep);
+    return slip < creep ? (splat(2.0f) - slip / creep) / creep : beyond;
 }
 
 /// D [m]: the integral of f, 0 where there is no slip.
