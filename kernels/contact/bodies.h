@@ -26,16 +26,24 @@
 // friction goes by how hard contacts press: in one round, what should slide would stick. How hard
 // that is, is in bearings.h.
 //
-// All that is in units of M / h^2, in 12 parts, or 14 with friction: float4
+// Where solids are among them, bodies are led like that before the first iteration as well
+// (lead_bodies). Iterations V and these steps R leave T (x~ - x*) of the way to the minimum x* of a
+// substep. Implicit Euler damps what is left where T has real eigenvalues from 0 to 1. T = R V has
+// complex ones: two blocks on each other never came to rest. T = R V R has not, as each of the two
+// is symmetric in the norm of E, and R done twice is R (sweeps that go one way are symmetric only
+// about). Solids remember only as wholes what has held them up (deviation_of_body), as that is what
+// the first R can make good.
+//
+// All that is in units of M / h^2, in 12 parts, or 16 with friction: float4
 //   0..4   the form of motions that contacts with others have, see store_sym6
 //   5      the lag less h^2/M G [m]; what is missing of the first form
 //   6      the same of turns [m^2]: here h^2/M times the torque alone; and of the second form
 //   7..11  as the first five, of those with what is not of the body's group
-//   12..13 what bears it
+//   12..15 what bears it
 // of which strains (strains.h) have the first seven.
 #define WEFT_STRAIN_PARTS 7
 #define WEFT_BODY_PARTS 12
-#define WEFT_RUBBED_BODY_PARTS 14
+#define WEFT_RUBBED_BODY_PARTS 16
 
 #include "kernels/bodies/free_bodies.h"
 #include "kernels/contact/bearings.h"
@@ -83,12 +91,14 @@ WEFT_INLINE body_sum add_push_at(body_sum sum, derivatives push, real3 lever, re
 /// pressed  how hard this round has told that it does
 /// part     that the body had in telling it
 /// pull     of friction, as in add_rubbing
+/// is_known  which of the two bodies tells; 0 in the first round, where both do
 WEFT_INLINE bearing bearing_at(contact_entry c, real mean, real pressed, real part, real pull,
-                               real yielding) {
+                               real is_known, real yielding) {
     const real own = c.own * yielding;
     const real known = pressed * (splat(1.0f) - part);
     bearing b = {add_scaled(scale(c.slip, pull * own), c.normal, -(known * own)),
-                 scale(c.normal, mean * part * own), mean * own};
+                 scale(c.normal, mean * part * own), mean * own,
+                 outer_sym(c.normal, mean * part * own * is_known)};
     return b;
 }
 
@@ -112,16 +122,17 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
-/// bearings       [2 * (bodies + 1)] as add_groups leaves them (groups.h)
+/// bearings       [4 * (bodies + 1)] as add_groups leaves them (groups.h)
 /// presses        [entries] how hard contacts press: from the mean over the rounds before, to that
 ///                with this one, but for strains [N]
-/// partials       [12 or 14 * columns] written, column-major, see above; behind the first round where
-///                it may have changed
+/// partials       [12 or 16 * columns] written, column-major, see above; behind the first round
+///                where it may have changed
 /// friction, creep  as in add_push
 /// h2             the square of the substep [s^2]
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
 ///                have ended badly: nothing reads them, nor `strains` and `bearings`
 /// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
+/// level          of the groups whose step follows
 WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                    WEFT_GLOBAL const int* column_bodies, WEFT_GLOBAL const float* masses,
                    WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
@@ -131,7 +142,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                    WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces,
                    WEFT_GLOBAL const float4* points, WEFT_GLOBAL const float4* other_points,
                    WEFT_GLOBAL float* presses, WEFT_GLOBAL float4* partials, float friction,
-                   float creep, float h2, int has_moved, int is_strain, int column_count,
+                   float creep, float h2, int has_moved, int is_strain, int level, int column_count,
                    int body_count) {
     const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
@@ -166,7 +177,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
-        const whole opposite = code >> splat_whole(1);
+        const whole opposite = code >> splat_whole(2);
         real press = zero;
         if (friction > 0.0f) press = on ? gather(presses, entry) : zero;
         telling told = told_by_one();
@@ -197,12 +208,14 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             push = add_rubbing(push, c, pull, no_way);
             if (!is_strain) {
                 const real mean = splat(0.5f) * (press + press_of_gap(c));
-                const bearing said = bearing_at(c, mean, pressed, told.part, pull, yielding);
+                const bearing said =
+                    bearing_at(c, mean, pressed, told.part, pull, has_moved ? one : zero, yielding);
                 scatter_where(on, presses, entry, mean);
                 sum.borne = add_scaled_bearing(sum.borne, said, on ? one : zero);
             }
         }
-        const real outside = code > opposite + opposite ? one : zero;
+        const whole inside = code - (opposite << splat_whole(2));
+        const real outside = inside > splat_whole(level) ? zero : one;
         if (is_strain)
             sum = add_strain_at(sum, push, lever, yielding);
         else
@@ -263,7 +276,7 @@ WEFT_INLINE sliding sliding_in_contact(moments body, borne_lag borne, body_sum s
 }
 
 /// How far each body has to go, as if it were the only one.
-/// lags       [12 or 14 * lag_count] of the runs and more rows, column-major, see above
+/// lags       [12 or 16 * lag_count] of the runs and more rows, column-major, see above
 /// first_run  [bodies]
 /// counts     [bodies] of its runs
 /// masses     [bodies] [kg]
@@ -271,7 +284,7 @@ WEFT_INLINE sliding sliding_in_contact(moments body, borne_lag borne, body_sum s
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
 /// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
-/// bearings   [2 * (bodies + 1)] written with friction, but for how far bodies have gone (groups.h)
+/// bearings   [4 * (bodies + 1)] written with friction, but for how far bodies have gone (groups.h)
 /// slides     [bodies + 1] written: 1: friction with obstacles does not hold the body; else 0
 /// has_moved  as in add_pushed_lags
 /// is_rubbed  1 with friction
@@ -337,23 +350,62 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     store_rest(rests, body_count, i, form, left, mass);
 }
 
+/// How far a vertex goes with its body.
+/// others as in move_bodies
+WEFT_INLINE real3 way_with_body(WEFT_GLOBAL const float4* motions,
+                                WEFT_GLOBAL const float4* strains,
+                                WEFT_GLOBAL const float4* moments_of, real3 x, integer body,
+                                int body_count) {
+    const real3 lever = subtract(x, xyz(gather4(moments_of, body)));
+    return add(way_of_motion(gather_motion(motions, body_count + 1, body), lever),
+               way_of_strain(gather_motion(strains, body_count + 1, body), lever));
+}
+
+/// Moves the vertices of free bodies before the first iteration of a substep. Parameters as in
+/// move_bodies.
+WEFT_KERNEL(lead_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* motions,
+            WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
+            WEFT_GLOBAL const int* bodies, int body_count) {
+    const real4 x = load4(positions, i);
+    const real3 way =
+        way_with_body(motions, strains, moments_of, xyz(x), load_index(bodies, i), body_count);
+    store4(positions, i, with_w(add(xyz(x), way), x.w));
+}
+
+/// x - x~ of a body, in the mean.
+WEFT_INLINE real3 deviation_of_body(WEFT_GLOBAL const float4* motions,
+                                    WEFT_GLOBAL const float4* moments_of, integer body,
+                                    int body_count) {
+    const int rows = body_count + 1;
+    const real3 lag =
+        make3(gather4(moments_of + 3 * rows, body).w, gather4(moments_of + 4 * rows, body).w,
+              gather4(moments_of + 5 * rows, body).w);
+    return subtract(gather_motion(motions, rows, body).shift, lag);
+}
+
 /// Moves the vertices of free bodies; see move_runs.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
 /// moments_of  [13 * (bodies + 1)] likewise
 /// slides      [bodies + 1] as solve_bodies leaves them; of the last one 0
+/// are_led     [bodies + 1] 1: the next substep starts from where the body is led as a whole, and
+///             so from what has held it up as a whole, alike at all of its vertices; else 0
 /// bodies      [vertices] which each belongs to; the last one: to none
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
             WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
-            WEFT_GLOBAL const float* slides, WEFT_GLOBAL const int* bodies, float inverse_h,
-            int body_count) {
+            WEFT_GLOBAL const float* slides, WEFT_GLOBAL const float* are_led,
+            WEFT_GLOBAL const int* bodies, float inverse_h, int body_count) {
     const integer body = load_index(bodies, i);
-    const real4 x = load4(positions, i);
-    const real3 lever = subtract(xyz(x), xyz(gather4(moments_of, body)));
-    const real3 way = add(way_of_motion(gather_motion(motions, body_count + 1, body), lever),
-                          way_of_strain(gather_motion(strains, body_count + 1, body), lever));
+    const real3 x = xyz(load4(positions, i));
+    const real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
     shift_vertex(positions, deviations, velocities, i, way, gather(slides, body), inverse_h);
+    const real is_led = gather(are_led, body);
+    if (!any_item(is_led > splat(0.0f))) return;
+    const real4 own = load4(deviations, i);
+    const real3 whole_body = deviation_of_body(motions, moments_of, body, body_count);
+    const real3 rest = scale(xyz(own), splat(1.0f) - is_led);
+    store4(deviations, i, with_w(add_scaled(rest, whole_body, is_led), own.w));
 }
 
 WEFT_KERNELS_END

@@ -4,6 +4,10 @@
 // The step that free bodies which touch each other take as one rigid whole, behind that of each of
 // them: see bodies.h. It takes what they lack in common of linear and angular momentum, against
 // what pushes them from outside.
+//
+// In every other round the halves of groups take such steps instead, on both sides of their middle:
+// how a tower bends is neither a matter of single bodies, whose steps are about the square of its
+// height too short for that, nor of the whole (docs/measurements.md, "Towers").
 
 #include "kernels/contact/bodies.h"
 
@@ -24,21 +28,25 @@ WEFT_INLINE integer body_in_group(WEFT_GLOBAL const int* members, whole first, m
 /// rests         [7 * bodies] as solve_bodies leaves them
 /// moments_of    [13 * (bodies + 1)] as weigh_bodies leaves them
 /// motions       [2 * (bodies + 1)] with solve_bodies' step
-/// firsts        [substeps * bodies] where a group's bodies begin in `members`
-/// counts        [substeps * bodies] how many there are; 0 for all but the first one of a group
-/// members       [substeps * bodies] groups side by side
+/// firsts        [substeps * levels * bodies] where a group's bodies begin in `members`; levels are
+///               WEFT_GROUP_LEVELS
+/// counts        [substeps * levels * bodies] how many there are; 0 for all but the first one of a
+///               group
+/// members       [substeps * levels * bodies] groups side by side
 /// group_motions [3 * bodies] written, column-major: of the groups that begin there; about xyz [m]
+/// level         of groups
 WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
                    WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
                    WEFT_GLOBAL const int* firsts, WEFT_GLOBAL const int* counts,
-                   WEFT_GLOBAL const int* members, WEFT_GLOBAL float4* group_motions,
+                   WEFT_GLOBAL const int* members, WEFT_GLOBAL float4* group_motions, int level,
                    int body_count, int substep) {
     const real zero = splat(0.0f);
-    const item now = column(i, body_count, substep);
+    const int table = WEFT_GROUP_LEVELS * substep + level;
+    const item now = column(i, body_count, table);
     const whole first = load_whole(firsts, now);
     const whole count = load_whole(counts, now);
     const int longest = largest_whole(count);
-    WEFT_GLOBAL const int* own_members = members + substep * body_count;
+    WEFT_GLOBAL const int* own_members = members + table * body_count;
     real3 centre = no_motion().shift;
     real mass = zero;
     for (int k = 0; k < longest; ++k) {
@@ -72,16 +80,17 @@ WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
 /// Adds what its group does to the motion of each body that touches another one, which then is as
 /// far as the round leads it.
 /// motions  [2 * (bodies + 1)]
-/// bearings [2 * (bodies + 1)] from solve_bodies, to those with how far bodies have gone
+/// bearings [4 * (bodies + 1)] from solve_bodies, to those with how far bodies have gone
 /// masses   [bodies] [kg]
-/// leaders  [substeps * bodies] the first one of each body's group
+/// leaders  [substeps * levels * bodies] the first one of each body's group
 /// others as in solve_groups
 WEFT_KERNEL(add_groups, WEFT_GLOBAL float4* motions, WEFT_GLOBAL float4* bearings,
             WEFT_GLOBAL const float* masses, WEFT_GLOBAL const float4* rests,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* group_motions,
-            WEFT_GLOBAL const int* leaders, int is_rubbed, int body_count, int substep) {
+            WEFT_GLOBAL const int* leaders, int is_rubbed, int level, int body_count, int substep) {
     const real zero = splat(0.0f);
-    const integer leader = load_index(leaders, column(i, body_count, substep));
+    const int table = WEFT_GROUP_LEVELS * substep + level;
+    const integer leader = load_index(leaders, column(i, body_count, table));
     const integer own_number = address(item_numbers(i));
     const real touches = load4(rests, column(i, body_count, 6)).w > zero ? splat(1.0f) : zero;
     body_motion own = gather_motion(motions, body_count + 1, own_number);

@@ -11,6 +11,9 @@
 #include "kernels/bodies/runs.h"
 #include "kernels/contact/rows.h"
 
+/// Bodies that touch are in groups, and these in parts (groups.h).
+#define WEFT_GROUP_LEVELS 2
+
 WEFT_KERNELS_BEGIN
 
 /// The one of a contact's vertices on this side that stands for all of them: the first one that
@@ -44,11 +47,12 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// targets      [vertices] xyz: x~ [m]
 /// members, shares, column_rows  of the columns: see bodies/runs.h
 /// bodies       [vertices] which of the free bodies each belongs to; `body_count`: to none
-/// leaders      [substeps * bodies] the first one of each body's group
+/// leaders      [substeps * WEFT_GROUP_LEVELS * bodies] the first one of each body's group, level by
+///              level (groups.h)
 /// rows, counts, corner0 to corner3, normals, weights, measures  as in gather_contacts
 /// push_rows, push_counts, push_needs   of the columns, written; see runtime/row_table.h
-/// codes        [entries] written: 2 * the body on the other side, and one more if that is not of
-///              this body's group
+/// codes        [entries] written: 4 * the body on the other side, and the number of levels on
+///              which that is of this body's group
 /// sides        [entries] written: n; the gap [m]
 /// slips        [entries] written: of this side along the other one [m]; the gap where inertia
 ///              leads [m]
@@ -79,7 +83,7 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
-    WEFT_GLOBAL const int* group_leaders = leaders + instance * body_count;
+    WEFT_GLOBAL const int* group_leaders = leaders + instance * WEFT_GROUP_LEVELS * body_count;
     const whole push_start = load_whole(push_rows, i);
     const whole room = load_whole(push_rows, column(i, column_count, 1));
     whole found = none;
@@ -118,12 +122,17 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                                                normals, weights, measures, entry);
                 if (friction > 0.0f) c = with_earlier_slip(c, earlier_slips, entry);
                 const whole opposite = one_side == own_body ? other_side : one_side;
-                const whole own_leader =
-                    gather_whole(group_leaders, address(smaller_whole(own_body, last_body)));
-                const whole leader =
-                    gather_whole(group_leaders, address(smaller_whole(opposite, last_body)));
                 const mask is_free = opposite < splat_whole(body_count);
-                const whole outside = both(is_free, leader == own_leader) ? none : splat_whole(1);
+                whole code = opposite << splat_whole(2);
+                for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+                    WEFT_GLOBAL const int* first_of = group_leaders + level * body_count;
+                    const whole own_leader =
+                        gather_whole(first_of, address(smaller_whole(own_body, last_body)));
+                    const whole leader =
+                        gather_whole(first_of, address(smaller_whole(opposite, last_body)));
+                    const mask is_inside = both(is_free, leader == own_leader);
+                    code = is_inside ? code + splat_whole(1) : code;
+                }
                 const real own = weight_of_side(w);
                 // The weights of both sides are the same.
                 const real3 point = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
@@ -131,7 +140,7 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                 const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
                 const mask fits = both(counts_here, found < room);
                 const integer place = address(push_start + found * WEFT_ROW_STRIDE);
-                scatter_whole_where(fits, codes, place, opposite + opposite + outside);
+                scatter_whole_where(fits, codes, place, code);
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
                 scatter4_where(fits, forces, place, force);

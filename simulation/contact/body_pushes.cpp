@@ -59,12 +59,13 @@ void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, 
 
 Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
                        Buffer<float4>& motions, Buffer<float4>& strains, Buffer<float4>& bearings,
-                       int has_moved, int is_strain, Buffer<float4>& partials) {
+                       const Round& round, Buffer<float4>& partials) {
     const int body_count = static_cast<int>(masses.count());
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
                   moments, motions, strains, bearings, table_.rows(), table_.counts(), codes_,
                   sides_, slips_, forces_, points_, other_points_, presses_, partials, friction_,
-                  creep_, h2_, has_moved, is_strain, columns_.count, body_count);
+                  creep_, h2_, round.has_moved, round.is_strain, round.level, columns_.count,
+                  body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {

@@ -25,11 +25,15 @@ public:
     /// What that needs of a region, besides the positions and the targets.
     void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
 
+    /// The parameters of a round, as the kernel's.
+    struct Round {
+        int has_moved = 0, is_strain = 0, level = 0;
+    };
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
     /// All parameters as the kernel's.
     Launch add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer<float4>& moments,
                Buffer<float4>& motions, Buffer<float4>& strains, Buffer<float4>& bearings,
-               int has_moved, int is_strain, Buffer<float4>& partials);
+               const Round& round, Buffer<float4>& partials);
     /// What that needs of a region, besides the moments, the motions, the strains and the bearings.
     void add_sum_accesses(Step::Adding& task, const Region& region);
 

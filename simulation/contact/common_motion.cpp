@@ -90,7 +90,7 @@ void CommonMotion::place_substep(int substep, Groups& known) {
         }
     }
     carry(substep, together);
-    if (grouped_) grouped_->place(substep, free_groups(boxes));
+    if (grouped_) grouped_->place(substep, free_groups(boxes), centres());
     const bool somebody_moves = std::ranges::any_of(together, is_moving);
     const auto is_led_alike = [&](const ForeseenMotion::Body& b) {
         return b.led == bodies().front().led;
@@ -99,6 +99,15 @@ void CommonMotion::place_substep(int substep, Groups& known) {
         build_fences(substep, split_groups(groups, together), boxes);
     else
         open_fences(substep);
+}
+
+/// Of what bodies may reach in the frame, about where they are.
+std::vector<Vec3> CommonMotion::centres() const {
+    std::vector<Vec3> centres;
+    for (const ForeseenMotion::Body& body : bodies()) {
+        centres.push_back(0.5 * (body.swept.low + body.swept.high));
+    }
+    return centres;
 }
 
 /// Of bodies that may meet, without those of which something is held.

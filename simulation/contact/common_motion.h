@@ -66,6 +66,7 @@ private:
     /// Of bodies in groups: with which the group moves, 0 where it does not, or one is blocked.
     std::vector<Vec3> common_velocities(int substep, const std::vector<int>& groups,
                                         const std::vector<char>& is_blocked) const;
+    std::vector<Vec3> centres() const;
     std::vector<int> free_groups(const std::vector<IntervalBox>& boxes) const;
     bool block(int substep, const std::vector<Vec3>& together,
                const std::vector<IntervalBox>& boxes, std::vector<char>& is_blocked) const;

@@ -310,6 +310,17 @@ void ContactResponse::add_snapshot_accesses(Step::Adding& task, int iteration, i
         .updates(snapshots_, half + first, half + last);
 }
 
+void ContactResponse::add_start_snapshots(std::vector<Launch>& launches,
+                                          Buffer<float4>& positions) {
+    for (const int ahead : {0, 1}) launches.push_back(snapshot(positions, ahead));
+}
+
+void ContactResponse::add_start_snapshot_accesses(Step::Adding& task, StripRange strips) {
+    for (const int iteration : {0, 1}) {
+        add_snapshot_accesses(task, iteration, strips.begin, strips.end);
+    }
+}
+
 /// Both halves: who hears late of others sees of them where they began, not an earlier substep.
 void ContactResponse::show_start(Launch even, Launch odd) {
     fill_.launches[showing_] = std::move(even);

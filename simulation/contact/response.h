@@ -71,6 +71,10 @@ public:
     /// Shows the positions to all in the next iteration.
     void add_snapshot(std::vector<Launch>& launches, Buffer<float4>& positions);
     void add_snapshot_accesses(Step::Adding& task, int iteration, int first_strip, int end_strip);
+    /// Likewise what the substep has led elsewhere since rows were filled: to the first iteration,
+    /// and to who hears late of others.
+    void add_start_snapshots(std::vector<Launch>& launches, Buffer<float4>& positions);
+    void add_start_snapshot_accesses(Step::Adding& task, StripRange strips);
     /// [2 * vertices] what is shown: to even iterations in the first half, to odd ones in the
     /// second.
     Buffer<float4>& snapshots() { return snapshots_; }

@@ -76,6 +76,23 @@ void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int 
     }
 }
 
+void BodyMomentum::add_first_sums(Step& step, const std::vector<Region>& regions) {
+    touching_->add_first_rounds(step, sums_, regions);
+}
+
+void BodyMomentum::add_lead(std::vector<Launch>& launches) {
+    if (!touching_ || !touching_->may_be_led()) return;
+    launches.push_back(touching_->lead());
+    contact_->add_truncation(launches, *model_.positions);
+}
+
+void BodyMomentum::add_lead_accesses(Step::Adding& task, StripRange strips) {
+    touching_->add_motion_accesses(task);
+    contact_->add_truncation_accesses(task, strips);
+    task.updates(*model_.positions, model_.vertices().item(strips.begin),
+                 model_.vertices().item(strips.end));
+}
+
 /// A motion may lead into what pushes.
 void BodyMomentum::add_moves(std::vector<Launch>& launches) {
     if (!free_bodies_) return;

@@ -48,6 +48,14 @@ public:
     /// Adds up what is missing, behind the last iteration of all regions; nothing without bodies.
     void add_sums(Step& step, const std::vector<Region>& regions, int iteration);
 
+    /// Leads bodies as wholes before the first iteration, too, where there is reason to; contacts
+    /// have the last word. Behind look_at(); nothing otherwise.
+    void add_lead(std::vector<Launch>& launches);
+    /// Where that is done: adds up how far, from the positions that contacts were found at.
+    void add_first_sums(Step& step, const std::vector<Region>& regions);
+    /// What leading them needs of its own strips.
+    void add_lead_accesses(Step::Adding& task, StripRange strips);
+
     /// Moves bodies, behind the velocities of a substep; obstacles and contacts have the last word.
     void add_moves(std::vector<Launch>& launches);
     /// What that needs of its own strips.

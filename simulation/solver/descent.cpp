@@ -24,6 +24,22 @@ int DescentSubstep::next_kind() const {
 
 void DescentSubstep::lead_tied_parts() { ties_ = TiedParts::of(model_, targets_, next_kind()); }
 
+void DescentSubstep::lead_bodies() {
+    lead_ = {"lead", next_kind(), {}};
+    momentum_.add_lead(lead_.launches);
+    if (!lead_.launches.empty()) contact_->add_start_snapshots(lead_.launches, *model_.positions);
+}
+
+void DescentSubstep::add_lead(Step& step, const std::vector<Region>& regions) {
+    if (lead_.launches.empty()) return;
+    momentum_.add_first_sums(step, regions);
+    for (const Region& region : regions) {
+        auto task = step.add(lead_, 0, region.strips(), region.id);
+        momentum_.add_lead_accesses(task, region.strips());
+        contact_->add_start_snapshot_accesses(task, region.strips());
+    }
+}
+
 void DescentSubstep::add_start(Step& step) {
     if (ties_) ties_->add(step);
 }
@@ -67,6 +83,7 @@ void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);
     if (ties_) bodies.push_back(&ties_->body());
+    if (!lead_.launches.empty()) bodies.push_back(&lead_);
     if (narrow_) narrow_->list_bodies(bodies);
     if (reactions_) reactions_->list_bodies(bodies);
 }
@@ -75,6 +92,7 @@ void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (contact_) std::ranges::copy(contact_->kinds(), std::back_inserter(kinds));
     std::ranges::copy(momentum_.kinds(), std::back_inserter(kinds));
     if (ties_) std::ranges::copy(TiedParts::kinds(), std::back_inserter(kinds));
+    if (!lead_.launches.empty()) kinds.push_back(lead_.name);
     if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds));
     if (reactions_) std::ranges::copy(Reactions::kinds(), std::back_inserter(kinds));
 }

@@ -35,6 +35,11 @@ public:
     /// Behind the beginnings of all regions.
     void add_start(Step& step);
 
+    /// Leads bodies as wholes before the first iteration, too, where there is reason to.
+    void lead_bodies();
+    /// Behind detection.
+    void add_lead(Step& step, const std::vector<Region>& regions);
+
     /// Where the iterates are; without it obstacles keep out vertices alone.
     /// snapshots: as in NarrowTask::Setting
     void keep_triangles_out(std::vector<Buffer<float4>*> iterates, bool snapshots);
@@ -83,6 +88,7 @@ private:
     std::unique_ptr<ContactResponse> contact_;
     BodyMomentum momentum_;
     std::unique_ptr<TiedParts> ties_;       ///< null: none, or nobody asked for it
+    TaskBody lead_;                         ///< empty: bodies are led behind iterations alone
     std::unique_ptr<NarrowTask> narrow_;    ///< null: no narrow obstacles
     std::unique_ptr<Reactions> reactions_;  ///< null: no obstacles that push free bodies
     int first_kind_;

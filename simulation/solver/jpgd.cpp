@@ -123,6 +123,7 @@ public:
         substep_.add_start(step);
         substep_.add_first_narrow(step, regions);
         if (contact_ != nullptr) contact_->add_detection(step, regions);
+        substep_.add_lead(step, regions);
         for (int i = 0; i < iterations_; ++i) {
             if (i % kCheckEvery == 0) add_check(step, regions, i);
             for (const Region& region : regions) {
@@ -183,6 +184,7 @@ private:
         }
         substep_.momentum().look_at(after(iterations_));
         substep_.lead_tied_parts();
+        substep_.lead_bodies();
         substep_.keep_triangles_out({&after(0), &after(1)}, /*snapshots=*/false);
         substep_.look_at_reactions(items_, derivatives_, {kInnerPhase}, after(iterations_),
                                    /*keeps_blocks=*/true);

@@ -10,6 +10,7 @@ SweepSolver::SweepSolver(Model& model)
       velocities_{"velocities", kVelocities, substep_.end()} {
     substep_.momentum().look_at(*model.positions);
     substep_.lead_tied_parts();
+    substep_.lead_bodies();
     substep_.keep_triangles_out({model.positions.get()}, /*snapshots=*/true);
 }
 
@@ -82,6 +83,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
     substep_.add_start(step);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
+    substep_.add_lead(step, regions);
     for (int i = 0; i < iterations; ++i) {
         add_iteration(step, regions, i);
         substep_.add_narrow(step, regions, i);

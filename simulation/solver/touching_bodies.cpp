@@ -58,17 +58,20 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       group_motions_("touching.group_motions", 3 * first_run_.count()),
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
-      bearings_("touching.bearings", motions_.count()),
+      bearings_("touching.bearings", WEFT_BEARING_PARTS * (first_run_.count() + 1)),
       slides_("touching.slides", motions_.count() / 2),
+      are_led_("touching.are_led", slides_.count()),
       moments_(bodies, multipliers ? PushedSolids::kShifted : PushedSolids::kTurned, first_run_,
                counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
-    collect_ = {"pushes", first_kind, {}};
+    first_collect_ = collect_ = {"pushes", first_kind, {}};
     weigh_ = {"bodies", first_kind + 1, {moments_.weigh(all())}};
-    steps_ = {"bodies", first_kind + 1, solve(0)};
-    steps_again_ = {"bodies", first_kind + 1, solve(1)};
+    steps_ = {"bodies", first_kind + 1, solve(0, 0)};
+    for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+        steps_again_[at(level)] = {"bodies", first_kind + 1, solve(1, level)};
+    }
     solids_ = BodyStrains::of(model, bodies, body_of_);
     if (solids_) strain_steps_ = {"bodies", first_kind + 1, {solve_strains()}};
 }
@@ -90,15 +93,15 @@ void TouchingBodies::number_bodies(const Model& model) {
     std::ranges::transform(masses, masses_.data(), [](double m) { return static_cast<float>(m); });
 }
 
-std::vector<Launch> TouchingBodies::solve(int has_moved) {
+std::vector<Launch> TouchingBodies::solve(int has_moved, int level) {
     return {
         launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
                moments_.moments(), motions_, strains_, rests_, bearings_, slides_, has_moved,
                is_rubbed_, bodies_.most_runs(), lag_count_, body_count()),
         launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
-               groups_.counts, groups_.members, group_motions_, body_count(), kInstance),
+               groups_.counts, groups_.members, group_motions_, level, body_count(), kInstance),
         launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_, moments_.moments(),
-               group_motions_, groups_.leaders, is_rubbed_, body_count(), kInstance)};
+               group_motions_, groups_.leaders, is_rubbed_, level, body_count(), kInstance)};
 }
 
 Launch TouchingBodies::solve_strains() {
@@ -109,7 +112,11 @@ Launch TouchingBodies::solve_strains() {
 }
 
 std::vector<const TaskBody*> TouchingBodies::bodies() const {
-    std::vector<const TaskBody*> list{&collect_, &weigh_, &steps_, &sums_again_, &steps_again_};
+    std::vector<const TaskBody*> list{&collect_, &weigh_, &steps_};
+    for (const auto* bodies : {&sums_again_, &steps_again_}) {
+        for (const TaskBody& body : *bodies) list.push_back(&body);
+    }
+    if (!first_collect_.launches.empty()) list.push_back(&first_collect_);
     if (solids_) list.insert(list.end(), {&strain_sums_, &strain_steps_});
     return list;
 }
@@ -117,38 +124,61 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         const ObstaclePushes& obstacles, int kind) {
     targets_ = &targets;
-    collect_.launches = moments_.sums().sum(model_, positions, targets, obstacles);
-    if (solids_)
-        std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
-                          std::back_inserter(collect_.launches));
-    collect_.launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
-    sums_again_ = {"momentum", kind, sum_round(1, 0)};
-    strain_sums_ = {"momentum", kind, sum_round(1, 1)};
-    return sum_round(0, 0);
+    collect_.launches = collect(positions, obstacles);
+    for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+        sums_again_[at(level)] = {"momentum", kind, sum_round({.has_moved = 1, .level = level})};
+    }
+    strain_sums_ = {"momentum", kind, sum_round({.has_moved = 1, .is_strain = 1})};
+    return sum_round({});
 }
 
-std::vector<Launch> TouchingBodies::sum_round(int has_moved, int is_strain) {
+std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions,
+                                            const ObstaclePushes& obstacles) {
+    auto launches = moments_.sums().sum(model_, positions, *targets_, obstacles);
+    if (solids_)
+        std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
+                          std::back_inserter(launches));
+    launches.push_back(pushes_.collect(positions, *targets_, body_of_, groups_));
+    return launches;
+}
+
+std::vector<Launch> TouchingBodies::sum_round(const BodyPushes::Round& round) {
     return {pushes_.add(column_bodies_, masses_, moments_.moments(), motions_, strains_, bearings_,
-                        has_moved, is_strain, partials_),
+                        round, partials_),
             bodies_.add_columns(partials_, lags_,
-                                {is_strain ? WEFT_STRAIN_PARTS : parts_, lag_count_, 1})};
+                                {round.is_strain ? WEFT_STRAIN_PARTS : parts_, lag_count_, 1})};
+}
+
+void TouchingBodies::add_first_rounds(Step& step, const TaskBody& body,
+                                      const std::vector<Region>& regions) {
+    add_all(step, first_collect_, body, regions, *model_.positions, 0);
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
                                 const std::vector<Region>& regions, Buffer<float4>& positions,
                                 int iteration) {
+    add_all(step, collect_, body, regions, positions, iteration);
+}
+
+void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskBody& body,
+                             const std::vector<Region>& regions, Buffer<float4>& positions,
+                             int iteration) {
     const auto for_each = [&](auto add) {
         for (const Region& region : regions) {
             if (bodies_.reach_into(region.begin, region.end)) add(region);
         }
     };
-    for_each([&](const Region& region) { add_collection(step, region, positions, iteration); });
+    for_each([&](const Region& region) {
+        add_collection(step, collection, region, positions, iteration);
+    });
     auto weighing = step.add(weigh_, iteration, {0, 1});
     moments_.add_weigh_accesses(weighing);
     for (int round = 0; round < kRounds; ++round) {
-        const TaskBody& sums = round == 0 ? body : sums_again_;
+        // The last round is of whole groups, as only these leave what they have in common exact.
+        const std::size_t level = at((kRounds - 1 - round) % WEFT_GROUP_LEVELS);
+        const TaskBody& sums = round == 0 ? body : sums_again_[level];
         for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
-        add_steps(step, round == 0 ? steps_ : steps_again_, iteration);
+        add_steps(step, round == 0 ? steps_ : steps_again_[level], iteration);
         if (!solids_ || round % kStrainEvery != 0) continue;
         for_each([&](const Region& region) { add_sum(step, strain_sums_, region, iteration); });
         add_steps(step, strain_steps_, iteration);
@@ -156,11 +186,11 @@ void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
 }
 
 /// Contacts reach anywhere.
-void TouchingBodies::add_collection(Step& step, const Region& region, Buffer<float4>& positions,
-                                    int iteration) {
+void TouchingBodies::add_collection(Step& step, const TaskBody& body, const Region& region,
+                                    Buffer<float4>& positions, int iteration) {
     const int first = model_.vertices().item(region.begin);
     const int last = model_.vertices().item(region.end);
-    auto task = step.add(collect_, iteration, region.strips(), region.id);
+    auto task = step.add(body, iteration, region.strips(), region.id);
     task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
     pushes_.add_collect_accesses(task, region, first, last);
     moments_.sums().add_sum_accesses(task, region);
@@ -193,10 +223,21 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
     task.updates(slides_, 0, static_cast<int>(slides_.count()));
 }
 
+/// Only solids start from what has held them up as wholes: what bears a sheet is not alike all
+/// over.
+Launch TouchingBodies::lead() {
+    first_collect_.launches = collect(*model_.positions, {});
+    for (std::size_t body = 0; body < first_run_.count(); ++body) {
+        are_led_[body] = solids_->stiffness()[body] > 0.0f ? 1.0f : 0.0f;
+    }
+    return launch(kernels::lead_bodies, model_.vertices(), *model_.positions, motions_, strains_,
+                  moments_.moments(), body_of_, body_count());
+}
+
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
-                  *model.velocities, motions_, strains_, moments_.moments(), slides_, body_of_,
-                  static_cast<float>(1.0 / model.h), body_count());
+                  *model.velocities, motions_, strains_, moments_.moments(), slides_, are_led_,
+                  body_of_, static_cast<float>(1.0 / model.h), body_count());
 }
 
 /// What tells where bodies have got to.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
+#include "kernels/contact/pushes.h"
 #include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/solver/body_moments.h"
@@ -29,6 +31,16 @@ public:
                     Buffer<float4>& positions, int iteration);
     /// Moves the vertices of a region's strips then.
     Launch move(Model& model, Buffer<float4>& deviations);
+
+    /// Whether there is reason to lead them before the first iteration, too: solids that may touch
+    /// others. Not where convex obstacles are, as contacts know nothing of these, and what bodies
+    /// rest on would be missing.
+    bool may_be_led() const { return solids_ && body_count() > 1 && !model_.obstacles; }
+    /// From now on they are, by what moves the vertices of a region's strips behind
+    /// add_first_rounds(). Behind sum().
+    Launch lead();
+    /// body: as add_rounds'
+    void add_first_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions);
     /// Where they have got to is what that reads, as do the sums.
     void add_motion_accesses(Step::Adding& task);
 
@@ -38,14 +50,18 @@ public:
     RowTable& table() { return pushes_.table(); }
 
 private:
-    std::vector<Launch> sum_round(int has_moved, int is_strain);
+    std::vector<Launch> collect(Buffer<float4>& positions, const ObstaclePushes& obstacles);
+    std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();
-    void add_collection(Step& step, const Region& region, Buffer<float4>& positions, int iteration);
+    void add_collection(Step& step, const TaskBody& body, const Region& region,
+                        Buffer<float4>& positions, int iteration);
+    void add_all(Step& step, const TaskBody& collection, const TaskBody& body,
+                 const std::vector<Region>& regions, Buffer<float4>& positions, int iteration);
     void add_sum(Step& step, const TaskBody& body, const Region& region, int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);
     Segments all() const { return {&begin_, 0, 1, model_.strips.count()}; }
-    std::vector<Launch> solve(int has_moved);
+    std::vector<Launch> solve(int has_moved, int level);
     int body_count() const { return groups_.body_count(); }
 
     Model& model_;
@@ -67,15 +83,17 @@ private:
     Buffer<float4> group_motions_;  ///< [3 * bodies]
     Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
     Buffer<float4> strains_;        ///< [2 * (bodies + 1)]
-    Buffer<float4> bearings_;       ///< [2 * (bodies + 1)]
+    Buffer<float4> bearings_;       ///< [4 * (bodies + 1)]
     Buffer<float> slides_;          ///< [bodies + 1]
+    Buffer<float> are_led_;         ///< [bodies + 1]
     BodyMoments moments_;
     Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0
     std::unique_ptr<BodyStrains> solids_;  ///< null: only cloth is free
     Buffer<float4>* targets_ = nullptr;
-    TaskBody collect_, weigh_, steps_;
+    TaskBody first_collect_, collect_, weigh_, steps_;
     TaskBody strain_sums_, strain_steps_;
-    TaskBody sums_again_, steps_again_;  ///< of the rounds behind the first one
+    /// Of the rounds behind the first one, by levels of groups.
+    std::array<TaskBody, WEFT_GROUP_LEVELS> sums_again_, steps_again_;
 };
 
 }  // namespace weft

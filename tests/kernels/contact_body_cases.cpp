@@ -28,6 +28,10 @@ struct Columns {
     static int entries(KernelCase& c) { return c.items + (kRows - 1) * WEFT_RUN_COLUMNS; }
 };
 
+constexpr int kTables = kSubsteps * WEFT_GROUP_LEVELS;  ///< of groups
+
+int random_level(KernelCase& c) { return c.random.integer(0, WEFT_GROUP_LEVELS - 1); }
+
 /// What a body has of contacts, as collect_pushes leaves it.
 struct Pushes {
     Rows rows;
@@ -38,7 +42,7 @@ struct Pushes {
 
     explicit Pushes(KernelCase& c)
         : rows(c, "pushes", c.items, kRoom),
-          codes(add_indices(c, "codes", rows.entries, 2 * (kBodies + 1))),
+          codes(add_indices(c, "codes", rows.entries, 4 * (kBodies + 1))),
           sides(add_normals(c, "sides", rows.entries, -kRange, 2.0f * kRange)),
           slips(add_points(c, "slips", rows.entries)),
           forces(c.add<float4>("forces", rows.entries)),
@@ -55,7 +59,7 @@ void collect_case(KernelCase& c) {
     auto& targets = add_points(c, "targets", c.items);
     Columns columns(c);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
-    auto& leaders = add_indices(c, "leaders", kSubsteps * kBodies, kBodies);
+    auto& leaders = add_indices(c, "leaders", kTables * kBodies, kBodies);
     OwnContacts contacts(c);
     for (float4& m : contacts.measures.span()) m.x += 0.5f;
     auto& multipliers = c.add<float>("multipliers", contacts.rows.entries);
@@ -133,7 +137,7 @@ void lags_case(KernelCase& c) {
     auto& moments = add_moments(c, kBodies);
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
-    auto& bearings = add_points(c, "bearings", 2 * (kBodies + 1));
+    auto& bearings = add_points(c, "bearings", WEFT_BEARING_PARTS * (kBodies + 1));
     Pushes pushes(c);
     auto& partials = c.add<float4>("partials", WEFT_RUBBED_BODY_PARTS * c.items);
     c.launch =
@@ -141,7 +145,7 @@ void lags_case(KernelCase& c) {
                motions, strains, bearings, pushes.rows.rows, pushes.rows.counts, pushes.codes,
                pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
                pushes.presses, partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-               c.random.integer(0, 1), c.random.integer(0, 1), c.items, kBodies);
+               c.random.integer(0, 1), c.random.integer(0, 1), random_level(c), c.items, kBodies);
 }
 
 /// Forms of motions of so many: semi-definite, five rows of each; some are zero.
@@ -159,8 +163,8 @@ void fill_forms(KernelCase& c, Buffer<float4>& forms, int rows, int first) {
     }
 }
 
-Buffer<float>& add_flags(KernelCase& c, int bodies) {
-    auto& flags = c.add<float>("slides", bodies);
+Buffer<float>& add_flags(KernelCase& c, const char* name, int bodies) {
+    auto& flags = c.add<float>(name, bodies);
     for (float& flag : flags.span()) flag = static_cast<float>(c.random.integer(0, 1));
     return flags;
 }
@@ -170,7 +174,8 @@ void bodies_case(KernelCase& c) {
     auto& lags = c.add<float4>("lags", WEFT_RUBBED_BODY_PARTS * lag_count);
     fill_forms(c, lags, lag_count, 0);
     fill_forms(c, lags, lag_count, 7);
-    for (int k = 12 * lag_count; k < 14 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
+    for (int k = WEFT_BODY_PARTS * lag_count; k < WEFT_RUBBED_BODY_PARTS * lag_count; ++k)
+        lags[at(k)] = c.random.point(0.1f);
     for (int k = 5 * lag_count; k < 7 * lag_count; ++k) lags[at(k)] = c.random.point(0.1f);
     Runs runs(c);
     auto& masses = c.add<float>("masses", c.items);
@@ -179,8 +184,8 @@ void bodies_case(KernelCase& c) {
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
     auto& strains = add_points(c, "strains", 2 * (c.items + 1));
     auto& rests = c.add<float4>("rests", 7 * c.items);
-    auto& bearings = add_points(c, "bearings", 2 * (c.items + 1));
-    auto& slides = add_flags(c, c.items + 1);
+    auto& bearings = add_points(c, "bearings", WEFT_BEARING_PARTS * (c.items + 1));
+    auto& slides = add_flags(c, "slides", c.items + 1);
     c.launch = launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses,
                       moments, motions, strains, rests, bearings, slides, c.random.integer(0, 1),
                       c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
@@ -231,30 +236,31 @@ void groups_case(KernelCase& c) {
     auto& rests = add_rests(c);
     auto& moments = add_moments(c, c.items);
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
-    auto& firsts = c.add<int>("firsts", kSubsteps * c.items);
-    auto& counts = c.add<int>("counts", kSubsteps * c.items);
+    auto& firsts = c.add<int>("firsts", kTables * c.items);
+    auto& counts = c.add<int>("counts", kTables * c.items);
     for (std::size_t b = 0; b < firsts.count(); ++b) {
         const int place = static_cast<int>(b) % c.items;
         firsts[b] = c.random.integer(0, place);
         counts[b] = c.random.integer(0, std::min(5, c.items - firsts[b]));
     }
-    auto& members = add_indices(c, "members", kSubsteps * c.items, c.items);
+    auto& members = add_indices(c, "members", kTables * c.items, c.items);
     auto& group_motions = c.add<float4>("group_motions", 3 * c.items);
     c.launch = launch(kernels::solve_groups, c.segments, rests, moments, motions, firsts, counts,
-                      members, group_motions, c.items, kInstance);
+                      members, group_motions, random_level(c), c.items, kInstance);
 }
 
 void add_groups_case(KernelCase& c) {
     auto& motions = add_points(c, "motions", 2 * (c.items + 1));
-    auto& bearings = add_points(c, "bearings", 2 * (c.items + 1));
+    auto& bearings = add_points(c, "bearings", WEFT_BEARING_PARTS * (c.items + 1));
     auto& masses = c.add<float>("masses", c.items);
     for (float& mass : masses.span()) mass = c.random.real(0.1f, 10.0f);
     auto& rests = add_points(c, "rests", 7 * c.items);
     auto& moments = add_moments(c, c.items);
     auto& group_motions = add_points(c, "group_motions", 3 * c.items);
-    auto& leaders = add_indices(c, "leaders", kSubsteps * c.items, c.items);
-    c.launch = launch(kernels::add_groups, c.segments, motions, bearings, masses, rests, moments,
-                      group_motions, leaders, c.random.integer(0, 1), c.items, kInstance);
+    auto& leaders = add_indices(c, "leaders", kTables * c.items, c.items);
+    c.launch =
+        launch(kernels::add_groups, c.segments, motions, bearings, masses, rests, moments,
+               group_motions, leaders, c.random.integer(0, 1), random_level(c), c.items, kInstance);
 }
 
 void move_case(KernelCase& c) {
@@ -265,16 +271,29 @@ void move_case(KernelCase& c) {
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
+    auto& slides = add_flags(c, "slides", kBodies + 1);
+    auto& are_led = add_flags(c, "are_led", kBodies + 1);
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      strains, moments, add_flags(c, kBodies + 1), bodies, 240.0f, kBodies);
+                      strains, moments, slides, are_led, bodies, 240.0f, kBodies);
 }
 
-const bool added =
-    add_case("collect_pushes", collect_case) && add_case("add_pushed_lags", lags_case) &&
-    add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
-    add_case("add_groups", add_groups_case) && add_case("add_moments", moments_case) &&
-    add_case("weigh_bodies", weigh_case) && add_case("move_bodies", move_case) &&
-    add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
+void lead_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
+    auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
+    auto& moments = add_moments(c, kBodies);
+    auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
+    c.launch = launch(kernels::lead_bodies, c.segments, positions, motions, strains, moments,
+                      bodies, kBodies);
+}
+
+const bool added = add_case("collect_pushes", collect_case) &&
+                   add_case("add_pushed_lags", lags_case) &&
+                   add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
+                   add_case("add_groups", add_groups_case) &&
+                   add_case("add_moments", moments_case) && add_case("weigh_bodies", weigh_case) &&
+                   add_case("move_bodies", move_case) && add_case("lead_bodies", lead_case) &&
+                   add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
 
 }  // namespace
 }  // namespace weft::test

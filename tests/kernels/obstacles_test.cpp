@@ -192,7 +192,7 @@ TEST(Obstacles, WhatPressesAddsUp) {
     for (int push = 1; push <= 2; ++push) {
         contact.rub(kernels::push_out_of_plane, WEFT_PUSH_PRESSES);
         expect_at(vec(contact.pressing[0]), {0.0, push * 0.35, 0.0});
-        EXPECT_NEAR(contact.pressing[0].w, kFriction * push * 0.35f, 1e-6);
+        EXPECT_NEAR(contact.pressing[0].w, kFriction * 0.35f * static_cast<float>(push), 1e-6);
         contact.positions[0].y = -0.225f;
     }
 }

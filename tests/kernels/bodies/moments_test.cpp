@@ -262,7 +262,7 @@ TEST(BodyMoments, TheStepOfASolidGoesRoundWhatIsHeld) {
 body_motion push_end(Cloud& cloud, real3 normal) {
     const moments body = cloud.weigh();
     Buffer<float4> lags("lags", 2 * WEFT_BODY_PARTS), rests("rests", 7), motions("motions", 4),
-        strains("strains", 4), bearings("bearings", 4);
+        strains("strains", 4), bearings("bearings", 2 * WEFT_BEARING_PARTS);
     Buffer<float> masses("masses", 1), slides("slides", 2);
     masses[0] = 1.0f;
     const real3 lever = subtract(xyz(gather4(cloud.positions.data(), 0)), body.centre);

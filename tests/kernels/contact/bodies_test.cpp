@@ -19,7 +19,8 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 /// One body of one run, on which solve_bodies is run.
 struct OneBody {
     Buffer<float4> lags{"lags", 2 * WEFT_BODY_PARTS}, rests{"rests", 7}, motions{"motions", 4},
-        strains{"strains", 4}, bearings{"bearings", 4}, moments{"moments", 2 * WEFT_MOMENT_PARTS};
+        strains{"strains", 4}, bearings{"bearings", 2 * WEFT_BEARING_PARTS},
+        moments{"moments", 2 * WEFT_MOMENT_PARTS};
     Buffer<int> first{"first_run", 1};
     Buffer<float> counts{"counts", 1}, masses{"masses", 1}, slides{"slides", 2};
 
@@ -49,7 +50,8 @@ TEST(BodiesAsWholes, TheFirstRoundReadsNothingOfAnEarlierSubstep) {
 
 TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
     Buffer<float4> standing("standing", 1), motions("motions", 4),
-        moments("moments", WEFT_MOMENT_PARTS), strains("strains", 4), bearings("bearings", 4);
+        moments("moments", WEFT_MOMENT_PARTS), strains("strains", 4),
+        bearings("bearings", 2 * WEFT_BEARING_PARTS);
     standing[0] = {0.25f, 0.0f, 0.0f, 1.0f};
     Buffer<int> bodies("column_bodies", 1), rows("rows", 2), counts("counts", 1), codes("codes", 1);
     Buffer<float> masses("masses", 1), presses("presses", 1);
@@ -59,7 +61,7 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
                    strains, bearings, rows, counts, codes, entries, entries, entries, entries,
-                   entries, presses, partials, 0.0f, 1.0f, 1e-4f, has_moved, 0, 1, 1);
+                   entries, presses, partials, 0.0f, 1.0f, 1e-4f, has_moved, 0, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5].x;
     };
@@ -73,15 +75,15 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
 struct OneContact {
     static constexpr float kPress = 50.0f, kFriction = 0.5f, kRange = 0.02f, kYielding = 1e-4f;
     Buffer<float4> standing{"standing", 1}, motions{"motions", 4}, moments{"moments", 14},
-        strains{"strains", 4}, bearings{"bearings", 4}, sides{"sides", 1}, slips{"slips", 1},
-        forces{"forces", 1}, points{"points", 1}, others{"other_points", 1},
+        strains{"strains", 4}, bearings{"bearings", 2 * WEFT_BEARING_PARTS}, sides{"sides", 1},
+        slips{"slips", 1}, forces{"forces", 1}, points{"points", 1}, others{"other_points", 1},
         partials{"partials", WEFT_RUBBED_BODY_PARTS};
     Buffer<int> bodies{"column_bodies", 1}, rows{"rows", 2}, counts{"counts", 1}, codes{"codes", 1};
     Buffer<float> masses{"masses", 1}, presses{"presses", 1};
 
     OneContact() {
         counts[0] = 1;
-        codes[0] = 2;
+        codes[0] = 4;
         masses[0] = 1.0f;
         slips[0] = {0.01f, 0.0f, 0.0f, kRange};
         forces[0] = {1.0f, 2.0f, 1e4f, kRange};
@@ -93,7 +95,7 @@ struct OneContact {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
                    strains, bearings, rows, counts, codes, sides, slips, forces, points, others,
-                   presses, partials, kFriction, 1e-3f, kYielding, has_moved, 0, 1, 1);
+                   presses, partials, kFriction, 1e-3f, kYielding, has_moved, 0, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5];
     }
@@ -118,11 +120,13 @@ TEST(BodiesAsWholes, BehindItTheyRubByWhatBearsTheBody) {
     contact.lag_at(0.6f * OneContact::kRange, 0);
     constexpr float kMean = 0.5f * (50.0f + 80.0f) * OneContact::kYielding;
     EXPECT_NEAR(contact.partials[13].y, kMean, 1e-5f * kMean);
+    EXPECT_EQ(contact.partials[15].y, 0.0f) << "not known yet who tells";
     constexpr float kBorne = 0.3f * kMean;
     contact.bearings[0] = {0.0f, kBorne, 0.0f, kMean};
     contact.bearings[2] = {0.0f, kMean, 0.0f, 0.0f};
     const float rubbed = OneContact::kFriction * kBorne;
     EXPECT_NEAR(contact.lag_at(0.6f * OneContact::kRange, 1).x, -rubbed, 0.01f * rubbed);
+    EXPECT_FLOAT_EQ(contact.partials[15].y, contact.partials[13].y);
 }
 
 /// How it moves in a scene without contacts.
@@ -203,7 +207,7 @@ struct CrossedEdges {
     static constexpr int kVertices = 4, kRoom = 4;
     Buffer<float4> positions{"positions", kVertices}, targets{"targets", kVertices};
     Buffer<int> members{"members", 2 * WEFT_RUN_COLUMNS}, columns{"column_rows", 4},
-        bodies{"bodies", kVertices}, leaders{"leaders", 2};
+        bodies{"bodies", kVertices}, leaders{"leaders", 2 * WEFT_GROUP_LEVELS};
     Buffer<float> shares{"shares", 2 * WEFT_RUN_COLUMNS};
     Buffer<int> rows{"rows", 2 * kVertices}, counts{"counts", kVertices};
     Buffer<int> corner0{"corner0", kVertices}, corner1{"corner1", kVertices},
@@ -242,7 +246,7 @@ struct CrossedEdges {
                           side * quarters[3]};
             measures[e] = {own, 2.0f * own, 100.0f, 0.02f};
         }
-        leaders[1] = 1;
+        for (std::size_t level = 0; level < WEFT_GROUP_LEVELS; ++level) leaders[2 * level + 1] = 1;
         for (std::size_t body = 0; body < 2; ++body) {
             columns[2 * body] = static_cast<int>(body);
             columns[2 * body + 1] = 2;
@@ -271,7 +275,7 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
     for (std::size_t body = 0; body < 2; ++body) {
         ASSERT_EQ(edges.push_counts[body], 1);
         EXPECT_EQ(edges.push_needs[body], 1);
-        EXPECT_EQ(edges.codes[body], 2 * (1 - static_cast<int>(body)) + 1);
+        EXPECT_EQ(edges.codes[body], 4 * (1 - static_cast<int>(body)));
         EXPECT_NEAR(edges.sides[body].w, 0.01f, 1e-7f);
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
@@ -283,12 +287,15 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
     }
 }
 
-TEST(BodiesAsWholes, WhatIsOfTheSameGroupIsNotOutside) {
+TEST(BodiesAsWholes, ContactsKnowOnHowManyLevelsBothSidesAreOfOneGroup) {
     CrossedEdges edges;
     edges.leaders[1] = 0;
     edges.collect();
-    EXPECT_EQ(edges.codes[0], 2);
-    EXPECT_EQ(edges.codes[1], 0);
+    EXPECT_EQ(edges.codes[0], 4 + 1);
+    EXPECT_EQ(edges.codes[1], 1);
+    edges.leaders[3] = 0;
+    edges.collect();
+    EXPECT_EQ(edges.codes[0], 4 + 2);
 }
 
 TEST(BodiesAsWholes, ContactsOfABodyWithItselfDoNotPushIt) {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "kernels/contact/pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/physics.h"
@@ -152,18 +153,34 @@ TEST(CommonMotion, WhatIsUnforeseenRunsAgain) {
 
 TEST(BodyGroups, AreListedFromTheirFirstBodyOn) {
     BodyGroups groups(2, {{0}, {2}, {1, 3}, {4}});
-    groups.place(0, {0, 1, 2, 2, 4});
-    groups.place(1, {0, 1, 0, 3, 4});
-    const auto list = [](const Buffer<int>& b) {
-        return std::vector<int>(b.span().begin(), b.span().end());
+    const std::vector<Vec3> centres(5);
+    groups.place(0, {0, 1, 2, 2, 4}, centres);
+    groups.place(1, {0, 1, 0, 3, 4}, centres);
+    const auto list = [](const Buffer<int>& b, int substep) {
+        const auto first = b.span().begin() + 4 * WEFT_GROUP_LEVELS * substep;
+        return std::vector<int>(first, first + 4);
     };
-    EXPECT_EQ(list(groups.leaders), (std::vector{0, 1, 1, 3, 0, 0, 2, 3})) << "3 and 1 are one";
-    EXPECT_EQ(list(groups.counts), (std::vector{1, 2, 0, 1, 2, 0, 1, 1}));
-    EXPECT_EQ(list(groups.members), (std::vector{0, 1, 2, 3, 0, 1, 2, 3}));
-    for (const int leader : {0, 1, 3, 4, 6, 7}) {
-        const int first = groups.firsts[static_cast<std::size_t>(leader)];
-        EXPECT_EQ(groups.members[static_cast<std::size_t>(leader / 4 * 4 + first)], leader % 4);
+    EXPECT_EQ(list(groups.leaders, 0), (std::vector{0, 1, 1, 3})) << "3 and 1 are one";
+    EXPECT_EQ(list(groups.leaders, 1), (std::vector{0, 0, 2, 3}));
+    EXPECT_EQ(list(groups.counts, 0), (std::vector{1, 2, 0, 1}));
+    EXPECT_EQ(list(groups.counts, 1), (std::vector{2, 0, 1, 1}));
+    for (const int substep : {0, 1}) {
+        const auto leaders = list(groups.leaders, substep);
+        EXPECT_EQ(list(groups.members, substep), (std::vector{0, 1, 2, 3}));
+        for (const int leader : leaders) {
+            const int first = list(groups.firsts, substep)[static_cast<std::size_t>(leader)];
+            EXPECT_EQ(list(groups.members, substep)[static_cast<std::size_t>(first)], leader);
+        }
     }
+}
+
+TEST(BodyGroups, HaveHalvesOnBothSidesOfTheMiddleOfTheirLongestSide) {
+    BodyGroups groups(1, {{0}, {1}, {2}, {3}, {4}});
+    const std::vector<Vec3> centres{{0, 3, 0}, {9, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 2, 0}};
+    groups.place(0, {0, 1, 0, 0, 0}, centres);
+    const auto leaders = groups.leaders.span();
+    EXPECT_EQ(std::vector<int>(leaders.begin(), leaders.begin() + 5), (std::vector{0, 1, 0, 0, 0}));
+    EXPECT_EQ(std::vector<int>(leaders.begin() + 5, leaders.end()), (std::vector{0, 1, 2, 2, 0}));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 
 #include "simulation/contact/response.h"
 #include "simulation/families/convert.h"
@@ -98,6 +97,15 @@ Vec3 push_on(ManualRun& run, int body) {
 
 class Resting : public EverySolver {};
 
+double kinetic_energy(const ManualRun& run) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < run.model->masses.size(); ++v) {
+        const Vec3 u = to_vec3((*run.model->velocities)[v]);
+        sum += 0.5 * run.model->masses[v] * dot(u, u);
+    }
+    return sum;
+}
+
 std::string column_of(int blocks, int iterations) {
     std::string text = head(iterations, "friction = 0.3\n") + kFloor;
     for (int i = 0; i < blocks; ++i) {
@@ -138,22 +146,31 @@ TEST_P(Resting, ColumnOfBlocksWeighsWhatItDoes) {
     for (const double pushed : Column(GetParam(), 8).pushed) EXPECT_NEAR(pushed, 1.0, 0.1);
 }
 
-/// By 8 iterations those of the descent methods sway, and walk aside (docs/contact.md).
 TEST_P(Resting, ColumnOfBlocksStaysWhereItIs) {
-    const std::map<Method, int> iterations{
-        {Method::kXpbd, 8}, {Method::kVbd, 20}, {Method::kSosd, 20}, {Method::kJpgd, 80}};
-    for (const Vec3 moved : Column(GetParam(), iterations.at(GetParam())).moved)
-        EXPECT_LT(length(moved), kSway);
+    for (const Vec3 moved : Column(GetParam(), 8).moved) EXPECT_LT(length(moved), kSway);
 }
 
 /// A slender one: without turns and strains of bodies as wholes its top walked by 8 to 10 mm in
-/// this second, and with turns alone by 2 to 3.
+/// this second, with turns alone by 2 to 3.
 TEST_P(Resting, SlenderColumnHardlyWalksByFewIterations) {
     ManualRun run(scene_of(column_of(4, 8)));
     run.run(90);
     const Vec3 before = momentum_of(run, 4).place;
     run.run(60);
     EXPECT_LT(length(momentum_of(run, 4).place - before), 0.001);
+}
+
+/// Unless bodies are led as wholes before the first iteration, too, this one rattles for ever, but
+/// by xpbd: with 1 mJ, which is a hundred times as much as here.
+TEST_P(Resting, BlocksOnEachOtherComeToRest) {
+    ManualRun run(scene_of(column_of(2, 8)));
+    run.run(120);
+    double kinetic = 0.0;
+    for (int frame = 0; frame < 10; ++frame) {
+        run.run(1);
+        kinetic = std::max(kinetic, kinetic_energy(run));
+    }
+    EXPECT_LT(kinetic, 1e-5);
 }
 
 /// Two blocks that meet at 1 m/s each, the second one of so many times the mass of the first.
@@ -317,6 +334,44 @@ TEST_P(Resting, PatchStaysWhereItIs) {
         run.run(is_long ? 3600 : 180);
         EXPECT_LT(difference(before, positions(run)), is_long ? 1e-4 : 5e-6);
     }
+}
+
+const std::string kTurnedSheets = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 8
+[solver]
+iterations = 8
+[contact]
+thickness = 0.005
+friction = 0.3
+[[cloth]]
+grid = { size = [0.3, 0.3], resolution = [13, 13] }
+copies = { count = 5, translate = [0, 0.006, 0], rotate = [0, 1, 0, 15] }
+translate = [0, 0.006, 0]
+density = 0.3
+stretch = { stiffness = 1e3 }
+bend = { stiffness = 1e-5 }
+[[obstacle]]
+shape = "mesh"
+grid = { size = [2.0, 2.0], resolution = [9, 9] }
+)";
+
+/// Corners that hang down push what is below them aside, and friction bears that. By xpbd the
+/// lowest sheet had none, and was at 10 mm.
+TEST_P(Resting, SheetsThatLieTurnedOnEachOtherStay) {
+    ManualRun run(scene_of(kTurnedSheets));
+    const BodyRange& lowest = run.model->bodies[0];
+    const std::vector<float> before = positions(run);
+    run.run(30);
+    const std::vector<float> after = positions(run);
+    double most = 0.0;
+    for (int v = lowest.first_vertex; v < lowest.first_vertex + lowest.vertex_count; ++v) {
+        const Vec3 gone = at(after, v) - at(before, v);
+        most = std::max(most, std::hypot(gone.x, gone.z));
+    }
+    EXPECT_LT(most, 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Resting,
