@@ -87,7 +87,8 @@ WEFT_INLINE real correction_of(bearing b, real3 normal) {
     const real pressed = dot3(b.pressed, normal) * unit;
     const real borne = dot3(b.borne, normal) * unit;
     const real spread = dot3(multiply_sym(b.spread, normal), normal) * unit;
-    const real way = both(borne * pressed<zero, spread> zero) ? spread : pressed;
+    const real opposed = zero - borne * pressed;
+    const real way = both(opposed > zero, spread > zero) ? spread : pressed;
     const real doubt = splat(1e-3f);
     const real correction = one + (borne - pressed) * way / (way * way + doubt);
     return smaller(larger(correction, zero), splat(16.0f));
