@@ -129,6 +129,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 ///                where it may have changed
 /// friction, creep  as in add_push
 /// h2             the square of the substep [s^2]
+/// is_rubbed      1 with friction, of contacts or of obstacles
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
 ///                have ended badly: nothing reads them, nor `strains` and `bearings`
 /// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
@@ -142,8 +143,8 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                    WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces,
                    WEFT_GLOBAL const float4* points, WEFT_GLOBAL const float4* other_points,
                    WEFT_GLOBAL float* presses, WEFT_GLOBAL float4* partials, float friction,
-                   float creep, float h2, int has_moved, int is_strain, int level, int column_count,
-                   int body_count) {
+                   float creep, float h2, int is_rubbed, int has_moved, int is_strain, int level,
+                   int column_count, int body_count) {
     const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
     const real one = splat(1.0f);
@@ -154,7 +155,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
     body_motion own_strain = no_motion();
     bearing own_bearing = no_bearing();
     if (has_moved) {
-        if (friction > 0.0f) own_bearing = gather_bearing(bearings, body_count + 1, own_body);
+        if (is_rubbed) own_bearing = gather_bearing(bearings, body_count + 1, own_body);
         own = gather_motion(motions, body_count + 1, own_body);
         own_strain = gather_motion(strains, body_count + 1, own_body);
     }
@@ -178,14 +179,18 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
         const whole opposite = code >> splat_whole(2);
+        const real4 point = gather4(points, entry);
+        const real4 other_point = gather4(other_points, entry);
+        const mask rests = both(on, point.w >= zero);
+        const mask meets = both(on, point.w < zero);
         real press = zero;
-        if (friction > 0.0f) press = on ? gather(presses, entry) : zero;
+        if (is_rubbed) press = on ? gather(presses, entry) : zero;
         telling told = told_by_one();
-        real3 lever = subtract(xyz(gather4(points, entry)), centre);
+        real3 lever = subtract(xyz(point), centre);
         if (has_moved) {
             const integer other = address(opposite);
             const real3 other_lever =
-                subtract(xyz(gather4(other_points, entry)), xyz(gather4(moments_of, other)));
+                subtract(xyz(other_point), xyz(gather4(moments_of, other)));
             const real3 other_way =
                 add(way_of_motion(gather_motion(motions, body_count + 1, other), other_lever),
                     way_of_strain(gather_motion(strains, body_count + 1, other), other_lever));
@@ -193,23 +198,28 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             const real3 own_way = add(add(own.shift, turned), way_of_strain(own_strain, lever));
             c = moved_push(c, subtract(own_way, other_way));
             lever = add(lever, turned);
-            if (friction > 0.0f) {
+            if (is_rubbed) {
                 const bearing other_bearing = gather_bearing(bearings, body_count + 1, other);
                 told =
                     tell(own_bearing, other_bearing, opposite < splat_whole(body_count), c.normal);
             }
         }
         if (!any_item(both(on, (is_pushed(c) ? one : press) > zero))) continue;
-        derivatives push = add_push(zero_derivatives(), c, on, no_way, 0.0f, creep);
-        if (friction > 0.0f) {
+        derivatives push = add_push(zero_derivatives(), c, meets, no_way, 0.0f, creep);
+        push = add_resting(push, c, rests, other_point.w);
+        if (is_rubbed) {
             const real pressed = press * told.correction;
             const real grip = friction_grip(length3(c.slip), splat(creep));
-            const real pull = splat(friction) * pressed * grip;
+            const real pull = (rests ? point.w : splat(friction)) * pressed * grip;
             push = add_rubbing(push, c, pull, no_way);
             if (!is_strain) {
-                const real mean = splat(0.5f) * (press + press_of_gap(c));
-                const bearing said =
+                const real now = rests ? press_of_resting(c, other_point.w) : press_of_gap(c);
+                const real weight = rests ? splat(has_moved ? 0.5f : 0.0f) : splat(0.5f);
+                const real mean = press + weight * (now - press);
+                bearing said =
                     bearing_at(c, mean, pressed, told.part, pull, has_moved ? one : zero, yielding);
+                const real known = rests ? other_point.w * yielding : zero;
+                said.borne = add_scaled(said.borne, c.normal, known);
                 scatter_where(on, presses, entry, mean);
                 sum.borne = add_scaled_bearing(sum.borne, said, on ? one : zero);
             }
@@ -226,7 +236,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
     store4(partials, column(i, column_count, 6), with_w(sum.lag.turn, sum.outside.mixed.z.z));
     if (is_strain) return;
     store_sym6(partials + 7 * column_count, column_count, i, sum.outside);
-    if (friction > 0.0f)
+    if (is_rubbed)
         store_bearing(partials + WEFT_BODY_PARTS * column_count, column_count, i, sum.borne);
 }
 

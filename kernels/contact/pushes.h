@@ -9,6 +9,7 @@
 // round has to know besides.
 
 #include "kernels/bodies/runs.h"
+#include "kernels/contact/resting.h"
 #include "kernels/contact/rows.h"
 
 /// Bodies that touch are in groups, and these in parts (groups.h).
@@ -60,7 +61,8 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
 /// multipliers  [entries] of xpbd, see project_contacts [N s^2]; not read where has_multipliers is 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
-/// points, other_points  [entries] written: where this side is touched, and the other one [m]
+/// points, other_points  [entries] written: where this side is touched, and the other one [m]; w of
+///              the first: WEFT_RESTS_NOT
 /// presses      [entries] written with friction: how hard they press each other, as multipliers or
 ///              gaps say [N]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
@@ -144,7 +146,7 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                 scatter4_where(fits, sides, place, with_w(c.normal, c.gap));
                 scatter4_where(fits, slips, place, with_w(c.slip, c.ahead));
                 scatter4_where(fits, forces, place, force);
-                scatter4_where(fits, points, place, with_w(point, zero));
+                scatter4_where(fits, points, place, with_w(point, splat(WEFT_RESTS_NOT)));
                 scatter4_where(fits, other_points, place, with_w(other_point, zero));
                 if (friction > 0.0f) {
                     const real press = has_multipliers

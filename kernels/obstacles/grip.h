@@ -25,6 +25,14 @@ WEFT_INLINE real grip_of_pushed(real grip, real push) {
     return larger(grip, push > splat(0.0f) ? splat(WEFT_NO_GRIP) : splat(0.0f));
 }
 
+/// The part of a push along what presses.
+/// pressing  as in obstacles/contact.h; 0: nothing presses
+WEFT_INLINE real3 pushed_along(real3 push, real3 pressing) {
+    const real size = dot3(pressing, pressing);
+    const real part = dot3(push, pressing) / (size > splat(0.0f) ? size : splat(1.0f));
+    return scale(pressing, part);
+}
+
 WEFT_KERNELS_END
 
 #endif

@@ -2,18 +2,9 @@
 #define WEFT_KERNELS_OBSTACLES_INSIDE_H
 
 #include "kernels/lanes.h"
-#include "kernels/obstacles/shapes.h"
+#include "kernels/obstacles/seen.h"
 
 WEFT_KERNELS_BEGIN
-
-/// As the kernel of the obstacle's shape sees a vertex at x that was at `start`.
-WEFT_INLINE real distance_seen_from(WEFT_GLOBAL const float4* o, real3 start, real3 x) {
-#define WEFT_TRY_SHAPE(name) \
-    if (o[7].w == WEFT_OBSTACLE_##name) return seen_from_##name(o, start, x).distance;
-    WEFT_FOR_EACH_OBSTACLE_SHAPE(WEFT_TRY_SHAPE)
-#undef WEFT_TRY_SHAPE
-    return splat(0.0f);
-}
 
 /// Where contact has taken back what obstacles had pushed: how far each vertex is inside of them,
 /// or has come through them in the substep, by the way that counts for pushes.
@@ -37,7 +28,7 @@ WEFT_KERNEL(find_inside, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
     for (int k = 0; k < obstacle_count; ++k) {
         WEFT_GLOBAL const float4* o =
             obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + k);
-        const real depth = -distance_seen_from(o, start, xyz(x));
+        const real depth = -seen_from(o, start, xyz(x)).distance;
         const mask is_deeper = both(counts, depth > deepest);
         deepest = is_deeper ? depth : deepest;
         inside = is_deeper ? splat_whole(k) : inside;

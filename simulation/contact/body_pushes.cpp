@@ -41,6 +41,14 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   friction_, multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
 }
 
+Launch BodyPushes::collect_resting(const Resting& r) {
+    return launch(kernels::collect_resting, columns_.by_strip, r.positions, r.previous,
+                  r.seen_targets, r.starts, r.slips, r.obstacles, r.solid, r.hardness,
+                  columns_.members, columns_.shares, columns_.rows, table_.rows(), table_.counts(),
+                  table_.needs(), codes_, sides_, slips_, forces_, points_, other_points_, presses_,
+                  columns_.count, r.body_count, r.obstacle_count, r.reach, 1.0f / h2_, kInstance);
+}
+
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
                                       int last) {
     contacts_.add_reads(task, region.begin, region.end, first, last);
@@ -64,7 +72,7 @@ Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
                   moments, motions, strains, bearings, table_.rows(), table_.counts(), codes_,
                   sides_, slips_, forces_, points_, other_points_, presses_, partials, friction_,
-                  creep_, h2_, round.has_moved, round.is_strain, round.level, columns_.count,
+                  creep_, h2_, round.is_rubbed, round.has_moved, round.is_strain, round.level, columns_.count,
                   body_count);
 }
 

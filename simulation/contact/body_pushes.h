@@ -25,9 +25,20 @@ public:
     /// What that needs of a region, besides the positions and the targets.
     void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
 
+    /// What collect_resting takes besides (kernels/contact/resting.h); all but the last three are
+    /// its buffers.
+    struct Resting {
+        Buffer<float4>&positions, &previous, &seen_targets, &starts, &slips, &obstacles;
+        Buffer<float>&solid, &hardness;
+        int body_count, obstacle_count;
+        float reach;
+    };
+    /// Behind collect(): adds the vertices that are near convex obstacles.
+    Launch collect_resting(const Resting& resting);
+
     /// The parameters of a round, as the kernel's.
     struct Round {
-        int has_moved = 0, is_strain = 0, level = 0;
+        int is_rubbed = 0, has_moved = 0, is_strain = 0, level = 0;
     };
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
     /// All parameters as the kernel's.

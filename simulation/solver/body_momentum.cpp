@@ -110,6 +110,7 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
     if (contact_) contact_->add_truncation(launches, *model_.positions);
     launches.push_back(launch(kernels::push_velocities, model_.vertices(), *model_.positions,
                               *moved_, *model_.velocities, static_cast<float>(1.0 / model_.h)));
+    if (resting()) launches.push_back(resting()->keep_slips());
 }
 
 void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
@@ -122,6 +123,7 @@ void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
     const int first = model_.vertices().item(strips.begin);
     const int last = model_.vertices().item(strips.end);
     task.updates(*model_.positions, first, last).updates(targets_, first, last);
+    if (resting()) resting()->add_keep_accesses(task, first, last);
 }
 
 void BodyMomentum::list_bodies(std::vector<const TaskBody*>& bodies) const {

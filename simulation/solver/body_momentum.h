@@ -38,6 +38,9 @@ public:
     /// What obstacles press, of a substep (kernels/obstacles/contact.h); null: nobody asks.
     Buffer<float4>* pressing() { return pressing_.get(); }
 
+    /// Solids on convex obstacles, in scenes with contact; null: none.
+    RestingBodies* resting() { return touching_ ? touching_->resting() : nullptr; }
+
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
     /// What that needs of vertices [first, last), besides the positions.

@@ -56,7 +56,8 @@ void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& de
     Buffer<float4>* starts = momentum_.starts();
     if (starts == nullptr || !momentum_.bodies()->has_solids()) return;
     const Reactions::Setting setting{positions,   targets_,          *starts,      items,
-                                     derivatives, std::move(phases), keeps_blocks, contact_.get()};
+                                     derivatives, std::move(phases), keeps_blocks, contact_.get(),
+                                     momentum_.resting() ? momentum_.pressing() : nullptr};
     reactions_ = std::make_unique<Reactions>(model_, *momentum_.bodies(), setting, next_kind());
 }
 
@@ -100,6 +101,7 @@ void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
 std::vector<BufferStorage*> DescentSubstep::state() {
     std::vector<BufferStorage*> buffers{&targets_};
     if (contact_) std::ranges::copy(contact_->state(), std::back_inserter(buffers));
+    if (momentum_.resting()) buffers.push_back(&momentum_.resting()->slips());
     return buffers;
 }
 

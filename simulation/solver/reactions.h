@@ -29,6 +29,7 @@ public:
         std::vector<Phase> phases;       ///< that have items
         bool keeps_blocks;               ///< whether their Hessian blocks outlive tasks
         ContactResponse* contact;        ///< null: none
+        Buffer<float4>* pressing;        ///< null: what is held aside is asked for, too
     };
     /// bodies: of which solids count. (Piles of cloth would be thrown: what presses the lowest one
     /// of them in a few iterations is many times what lies on it.)

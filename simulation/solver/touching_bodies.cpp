@@ -42,7 +42,9 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
                                Buffer<float>* multipliers, int first_kind)
     : model_(model),
       bodies_(bodies),
-      is_rubbed_(contact.rubbing().friction > 0 ? 1 : 0),
+      resting_(multipliers ? nullptr
+                           : RestingBodies::of(model, bodies, contact.rubbing().creep)),
+      is_rubbed_(contact.rubbing().friction > 0 || (resting_ && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
       pushes_(contact.rows(), bodies.columns(), contact.rubbing(), multipliers, model.h),
       groups_(contact.motion().group(parts_of(model, bodies))),
@@ -61,8 +63,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       bearings_("touching.bearings", WEFT_BEARING_PARTS * (first_run_.count() + 1)),
       slides_("touching.slides", motions_.count() / 2),
       are_led_("touching.are_led", slides_.count()),
-      moments_(bodies, multipliers ? PushedSolids::kShifted : PushedSolids::kTurned, first_run_,
-               counts_),
+      moments_(bodies, PushedSolids::kShifted, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
@@ -124,21 +125,29 @@ std::vector<const TaskBody*> TouchingBodies::bodies() const {
 std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4>& targets,
                                         const ObstaclePushes& obstacles, int kind) {
     targets_ = &targets;
-    collect_.launches = collect(positions, obstacles);
+    obstacles_ = obstacles;
+    collect_.launches = collect(positions);
     for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
-        sums_again_[at(level)] = {"momentum", kind, sum_round({.has_moved = 1, .level = level})};
+        sums_again_[at(level)] = {"momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .level = level})};
     }
-    strain_sums_ = {"momentum", kind, sum_round({.has_moved = 1, .is_strain = 1})};
-    return sum_round({});
+    strain_sums_ = {"momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .is_strain = 1})};
+    return sum_round({.is_rubbed = is_rubbed_});
 }
 
-std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions,
-                                            const ObstaclePushes& obstacles) {
-    auto launches = moments_.sums().sum(model_, positions, *targets_, obstacles);
+std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
+    std::vector<Launch> launches;
+    if (resting_) launches.push_back(resting_->see(*targets_, obstacles_));
+    Buffer<float4>& targets = resting_ ? resting_->targets() : *targets_;
+    const ObstaclePushes pushes = resting_ ? resting_->pushes(obstacles_) : obstacles_;
+    std::ranges::move(moments_.sums().sum(model_, positions, targets, pushes),
+                      std::back_inserter(launches));
     if (solids_)
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
                           std::back_inserter(launches));
-    launches.push_back(pushes_.collect(positions, *targets_, body_of_, groups_));
+    launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
+    if (resting_)
+        launches.push_back(
+            resting_->collect(pushes_, positions, *obstacles_.starts, body_count()));
     return launches;
 }
 
@@ -195,6 +204,7 @@ void TouchingBodies::add_collection(Step& step, const TaskBody& body, const Regi
     pushes_.add_collect_accesses(task, region, first, last);
     moments_.sums().add_sum_accesses(task, region);
     if (solids_) solids_->add_sum_accesses(task, region);
+    if (resting_) resting_->add_collect_accesses(task, obstacles_, first, last);
 }
 
 void TouchingBodies::add_sum(Step& step, const TaskBody& body, const Region& region,
@@ -226,7 +236,7 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
 /// Only solids start from what has held them up as wholes: what bears a sheet is not alike all
 /// over.
 Launch TouchingBodies::lead() {
-    first_collect_.launches = collect(*model_.positions, {});
+    first_collect_.launches = collect(*model_.positions);
     for (std::size_t body = 0; body < first_run_.count(); ++body) {
         are_led_[body] = solids_->stiffness()[body] > 0.0f ? 1.0f : 0.0f;
     }

@@ -10,6 +10,7 @@
 #include "simulation/solver/body_moments.h"
 #include "simulation/solver/body_strains.h"
 #include "simulation/solver/free_bodies.h"
+#include "simulation/solver/resting_bodies.h"
 
 namespace weft {
 
@@ -33,9 +34,8 @@ public:
     Launch move(Model& model, Buffer<float4>& deviations);
 
     /// Whether there is reason to lead them before the first iteration, too: solids that may touch
-    /// others. Not where convex obstacles are, as contacts know nothing of these, and what bodies
-    /// rest on would be missing.
-    bool may_be_led() const { return solids_ && body_count() > 1 && !model_.obstacles; }
+    /// others, or convex obstacles.
+    bool may_be_led() const { return solids_ && (body_count() > 1 || resting_); }
     /// From now on they are, by what moves the vertices of a region's strips behind
     /// add_first_rounds(). Behind sum().
     Launch lead();
@@ -48,9 +48,11 @@ public:
     std::vector<const TaskBody*> bodies() const;
     std::vector<std::string> kinds() const { return {collect_.name, steps_.name}; }
     RowTable& table() { return pushes_.table(); }
+    /// Null: no solid may lie on a convex obstacle; nor by xpbd.
+    RestingBodies* resting() { return resting_.get(); }
 
 private:
-    std::vector<Launch> collect(Buffer<float4>& positions, const ObstaclePushes& obstacles);
+    std::vector<Launch> collect(Buffer<float4>& positions);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();
     void add_collection(Step& step, const TaskBody& body, const Region& region,
@@ -66,6 +68,7 @@ private:
 
     Model& model_;
     FreeBodies& bodies_;
+    std::unique_ptr<RestingBodies> resting_;  ///< null: see resting()
     int is_rubbed_;  ///< 1 with friction
     int parts_;      ///< that are summed up
     BodyPushes pushes_;
@@ -90,6 +93,7 @@ private:
     Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0
     std::unique_ptr<BodyStrains> solids_;  ///< null: only cloth is free
     Buffer<float4>* targets_ = nullptr;
+    ObstaclePushes obstacles_;
     TaskBody first_collect_, collect_, weigh_, steps_;
     TaskBody strain_sums_, strain_steps_;
     /// Of the rounds behind the first one, by levels of groups.

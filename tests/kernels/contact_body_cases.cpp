@@ -52,6 +52,7 @@ struct Pushes {
           standing(add_points(c, "standing", c.items)) {
         for (float& press : presses.span()) press = c.random.real(0.0f, 10.0f);
         for (float4& f : forces.span()) f = {1.0f, 2.0f, c.random.real(1.0f, 1e4f), kRange};
+        for (float4& p : points.span()) p.w = c.random.integer(0, 2) == 0 ? 0.3f : WEFT_RESTS_NOT;
     }
 };
 
@@ -145,7 +146,8 @@ void lags_case(KernelCase& c) {
                motions, strains, bearings, pushes.rows.rows, pushes.rows.counts, pushes.codes,
                pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
                pushes.presses, partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
-               c.random.integer(0, 1), c.random.integer(0, 1), random_level(c), c.items, kBodies);
+               c.random.integer(0, 1), c.random.integer(0, 1), c.random.integer(0, 1),
+               random_level(c), c.items, kBodies);
 }
 
 /// Forms of motions of so many: semi-definite, five rows of each; some are zero.

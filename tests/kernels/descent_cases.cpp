@@ -248,8 +248,10 @@ void reactions_case(KernelCase& c) {
     for (float& one : borne.span()) one = static_cast<float>(c.random.integer(0, 1));
     auto& vertices = add_vertices(c);
     auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
+    auto& pressing = c.add<float4>("pressing", 2 * c.items);
+    for (float4& p : pressing.span()) p = c.random.point(0.1f);
     c.launch = launch(kernels::lead_by_reactions, c.segments, positions, starts, targets, borne,
-                      vertices, sums, c.items, 1e4f);
+                      vertices, sums, pressing, c.random.integer(0, 1), c.items, 1e4f);
 }
 
 const bool added =

@@ -1,11 +1,13 @@
 // Every shape has kernels of the same signature, so a new shape is tested without another line
 // here.
 
+#include "kernels/contact/resting.h"
 #include "kernels/obstacles/inside.h"
 #include "kernels/obstacles/narrow.h"
 
 #include <limits>
 
+#include "tests/kernels/contact_response_parts.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -42,6 +44,12 @@ void place(KernelCase& c, Buffer<float4>& obstacles) {
         const float shape = kShapes[c.random.integer(0, std::size(kShapes) - 1)];
         rows[7] = {0.01f, friction, swept_from[which], shape};
     }
+}
+
+Buffer<float4>& add_obstacles(KernelCase& c) {
+    auto& obstacles = c.add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
+    place(c, obstacles);
+    return obstacles;
 }
 
 /// Points near shapes, and where several of their parts are as near.
@@ -126,7 +134,8 @@ void push_case(KernelCase& c, Buffer<float4>& obstacles) {
 }
 
 /// Triangles between any vertices, up to four at each; some have no area.
-void planes_case(KernelCase& c, Buffer<float4>& obstacles) {
+void planes_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
     constexpr int kSlots = 4;
     const Moved moved = add_moved(c);
     auto& corners = c.add<int>("corners", 3 * kSlots * c.items);
@@ -151,7 +160,8 @@ void planes_case(KernelCase& c, Buffer<float4>& obstacles) {
 }
 
 /// Contact has taken back a quarter of the vertices.
-void inside_case(KernelCase& c, Buffer<float4>& obstacles) {
+void inside_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
     const Moved moved = add_moved(c);
     auto& cut = c.add<int>("cut", c.items);
     for (int& one : cut.span()) one = std::max(0, c.random.integer(-5, 2));
@@ -163,20 +173,84 @@ void inside_case(KernelCase& c, Buffer<float4>& obstacles) {
                       cut, depths, insides, kObstacles, kInstance);
 }
 
+Buffer<float>& add_flags(KernelCase& c, const char* name) {
+    auto& flags = c.add<float>(name, c.items);
+    for (float& flag : flags.span()) flag = static_cast<float>(c.random.integer(0, 1));
+    return flags;
+}
+
+/// Of solids' vertices and of others; rows have contacts, and room for few more entries.
+void collect_resting_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    constexpr int kRows = 3;
+    const Moved moved = add_moved(c);
+    auto& seen = response::add_points(c, "seen_targets", c.items);
+    auto& starts = response::add_points(c, "starts", c.items);
+    auto& kept = response::add_points(c, "kept", c.items);
+    auto& solid = add_flags(c, "solid");
+    auto& hardness = c.add<float>("hardness", c.items);
+    for (float& k : hardness.span()) k = c.random.real(1.0f, 1e4f);
+    const int member_count = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
+    auto& members = response::add_indices(c, "members", member_count, c.items);
+    auto& shares = c.add<float>("shares", member_count);
+    for (float& share : shares.span()) share = std::max(c.random.real(-0.2f, 1.0f), 0.0f);
+    auto& column_rows = c.add<int>("column_rows", 2 * c.items);
+    for (std::size_t i = 0; i < shares.count() && 2 * i < column_rows.count(); ++i) {
+        column_rows[2 * i] = static_cast<int>(i);
+        column_rows[2 * i + 1] = kRows;
+    }
+    const response::Rows rows(c, "pushes", c.items, response::kRoom);
+    auto& needs = response::add_indices(c, "push_needs", c.items, 9);
+    auto& codes = c.add<int>("codes", rows.entries);
+    auto& sides = c.add<float4>("sides", rows.entries);
+    auto& slips = c.add<float4>("slips", rows.entries);
+    auto& forces = c.add<float4>("forces", rows.entries);
+    auto& points = c.add<float4>("points", rows.entries);
+    auto& other_points = c.add<float4>("other_points", rows.entries);
+    auto& presses = c.add<float>("presses", rows.entries);
+    c.launch = launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen,
+                      starts, kept, obstacles, solid, hardness, members, shares, column_rows,
+                      rows.rows, rows.counts, needs, codes, sides, slips, forces, points,
+                      other_points, presses, c.items, response::kBodies, kObstacles, 0.1f, 1e4f,
+                      kInstance);
+}
+
+void keep_resting_slips_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    const Moved moved = add_moved(c);
+    auto& slips = response::add_points(c, "slips", c.items);
+    c.launch = launch(kernels::keep_resting_slips, c.segments, moved.positions, moved.previous,
+                      obstacles, slips, kObstacles, 0.1f, 1e-3f, kInstance);
+}
+
+/// Of solids' vertices and of others; some are not pressed.
+void see_targets_case(KernelCase& c) {
+    auto& targets = add_targets(c);
+    auto& starts = response::add_points(c, "starts", c.items);
+    auto& pressing = response::add_points(c, "pressing", c.items);
+    for (float4& p : pressing.span()) {
+        if (c.random.integer(0, 2) == 0) p = {};
+    }
+    auto& solid = add_flags(c, "solid");
+    auto& seen_targets = c.add<float4>("seen_targets", c.items);
+    auto& seen_starts = c.add<float4>("seen_starts", c.items);
+    c.launch = launch(kernels::see_targets, c.segments, targets, starts, pressing, solid,
+                      seen_targets, seen_starts);
+}
+
+const bool added = add_case("find_obstacle_planes", planes_case) &&
+                   add_case("find_inside", inside_case) &&
+                   add_case("see_targets", see_targets_case) &&
+                   add_case("collect_resting", collect_resting_case) &&
+                   add_case("keep_resting_slips", keep_resting_slips_case);
+
 }  // namespace
 
 std::unique_ptr<KernelCase> make_obstacle_case(std::string_view kernel, int items, Flavour flavour,
                                                unsigned seed) {
-    const bool pushes = kernel.starts_with("push_out_of_");
-    const bool finds_planes = kernel == "find_obstacle_planes";
-    if (!pushes && !finds_planes && kernel != "find_inside") return nullptr;
+    if (!kernel.starts_with("push_out_of_")) return nullptr;
     auto made = std::make_unique<KernelCase>(items, flavour, seed);
-    auto& obstacles = made->add<float4>("obstacles", kSubsteps * kObstacles * WEFT_OBSTACLE_ROWS);
-    place(*made, obstacles);
-    if (!pushes) {
-        finds_planes ? planes_case(*made, obstacles) : inside_case(*made, obstacles);
-        return made;
-    }
+    auto& obstacles = add_obstacles(*made);
     push_case(*made, obstacles);
     finish(*made, kernels::kernel_info(std::string(kernel)));
     return made;

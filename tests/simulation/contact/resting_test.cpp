@@ -195,6 +195,56 @@ TEST_P(Resting, BlocksOnEachOtherComeToRest) {
     EXPECT_LT(kinetic, 1e-5);
 }
 
+/// So many blocks above each other, of which the lowest one falls by 5 mm.
+std::string blocks_on_plane(int count, double young, double friction) {
+    return fmt::format(R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 6
+[solver]
+iterations = 8
+[contact]
+thickness = 0.01
+friction = 0.5
+[[solid]]
+grid = {{ size = [0.2, 0.1, 0.2], resolution = [5, 3, 5] }}
+copies = {{ count = {}, translate = [0, 0.11, 0] }}
+translate = [0, 0.06, 0]
+density = 300.0
+young = {}
+poisson = 0.3
+[[obstacle]]
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 1, 0]
+thickness = 0.005
+friction = {}
+)",
+                       count, young, friction);
+}
+
+/// Pushed out of the plane vertex by vertex alone, it had a thousand times the energy of its fall.
+TEST_P(Resting, StiffBlockThatFallsOnAPlaneLies) {
+    for (const double friction : {0.0, 0.5}) {
+        ManualRun run(scene_of(blocks_on_plane(1, 1e8, friction)));
+        run.run(30);
+        EXPECT_LT(kinetic_energy(run), 1e-6);
+        const Vec3 place = momentum_of(run, 0).place;
+        EXPECT_NEAR(place.y, 0.055, 1e-5);
+        EXPECT_LT(std::hypot(place.x, place.z), 2e-4);
+    }
+}
+
+TEST_P(Resting, StiffBlocksOnAPlaneComeToRest) {
+    ManualRun run(scene_of(blocks_on_plane(2, 1e7, 0.5)));
+    run.run(90);
+    const Vec3 before = momentum_of(run, 1).place;
+    run.run(60);
+    EXPECT_LT(kinetic_energy(run), 1e-5);
+    EXPECT_LT(length(momentum_of(run, 1).place - before), 1e-4);
+}
+
 /// Two blocks that meet at 1 m/s each, the second one of so many times the mass of the first.
 std::string meeting_blocks(int iterations, int substeps, double ratio) {
     return head(iterations, "", "gravity = [0, 0, 0]", substeps) +

@@ -1,0 +1,72 @@
+#include "simulation/solver/resting_bodies.h"
+
+#include <algorithm>
+
+#include "kernels/contact/resting.h"
+#include "simulation/contact/stiffness.h"
+
+namespace weft {
+
+namespace {
+
+/// k of a vertex has at least so many m / h^2. Many make rounds slow to settle, and few let a solid
+/// sink, until the iterations push it out again.
+constexpr double kHardness = 100.0;
+
+}  // namespace
+
+std::unique_ptr<RestingBodies> RestingBodies::of(Model& model, const FreeBodies& bodies,
+                                                 double creep) {
+    if (!model.obstacles || !bodies.has_solids()) return nullptr;
+    return std::make_unique<RestingBodies>(model, bodies, creep);
+}
+
+RestingBodies::RestingBodies(Model& model, const FreeBodies& bodies, double creep)
+    : model_(model),
+      creep_(static_cast<float>(creep)),
+      reach_(static_cast<float>(model.scene.contact->thickness)),
+      solid_("resting.solid", model.positions->count()),
+      hardness_("resting.hardness", model.positions->count()),
+      targets_("resting.targets", model.positions->count()),
+      starts_("resting.starts", model.positions->count()),
+      slips_("resting.slips", model.positions->count()) {
+    for (int r = 0; r < bodies.run_count(); ++r) {
+        const FreeBodies::Run& run = bodies.run(r);
+        if (run.is_solid) std::fill(solid_.data() + run.begin, solid_.data() + run.end, 1.0f);
+    }
+    const std::vector<float> stiffness = contact_stiffness(model);
+    for (std::size_t v = 0; v < stiffness.size(); ++v) {
+        const double inertia = model.masses[v] / (model.h * model.h);
+        hardness_[v] = stiffness[v] + static_cast<float>(kHardness * inertia);
+    }
+}
+
+Launch RestingBodies::see(Buffer<float4>& targets, const ObstaclePushes& obstacles) {
+    return launch(kernels::see_targets, model_.vertices(), targets, *obstacles.starts,
+                  *obstacles.pressing, solid_, targets_, starts_);
+}
+
+Launch RestingBodies::collect(BodyPushes& pushes, Buffer<float4>& positions,
+                              Buffer<float4>& starts, int body_count) {
+    return pushes.collect_resting({positions, *model_.previous, targets_, starts, slips_,
+                                   model_.obstacles->placements(), solid_, hardness_, body_count,
+                                   model_.obstacles->count(), reach_});
+}
+
+void RestingBodies::add_collect_accesses(Step::Adding& task, const ObstaclePushes& obstacles,
+                                         int first, int last) {
+    task.reads(*obstacles.starts, first, last)
+        .reads(*obstacles.pressing, first, last)
+        .reads(*model_.previous, first, last)
+        .reads(slips_, first, last)
+        .updates(targets_, first, last)
+        .updates(starts_, first, last);
+}
+
+Launch RestingBodies::keep_slips() {
+    return launch(kernels::keep_resting_slips, model_.vertices(), *model_.positions,
+                  *model_.previous, model_.obstacles->placements(), slips_,
+                  model_.obstacles->count(), reach_, creep_, kInstance);
+}
+
+}  // namespace weft

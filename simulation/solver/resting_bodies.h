@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "simulation/contact/body_pushes.h"
+#include "simulation/model/model.h"
+#include "simulation/solver/free_bodies.h"
+#include "simulation/solver/moment_sums.h"
+
+namespace weft {
+
+/// Free solids on convex obstacles, in scenes with contact: to the rounds that move bodies as
+/// wholes, obstacles are contacts like any other (kernels/contact/resting.h).
+class RestingBodies {
+public:
+    /// Null: there are no convex obstacles, or no solids. creep: of what sticks, per substep [m].
+    /// model must outlive this.
+    static std::unique_ptr<RestingBodies> of(Model& model, const FreeBodies& bodies, double creep);
+    RestingBodies(Model& model, const FreeBodies& bodies, double creep);
+
+    /// x~ as rounds see it: [vertices]
+    Buffer<float4>& targets() { return targets_; }
+    /// What see() makes of what obstacles push.
+    ObstaclePushes pushes(const ObstaclePushes& obstacles) {
+        return {&starts_, obstacles.pressing};
+    }
+    Launch see(Buffer<float4>& targets, const ObstaclePushes& obstacles);
+    /// Behind the contacts of `pushes`. starts: x~ before obstacles push
+    Launch collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
+                   int body_count);
+    /// What both need of vertices [first, last), besides the positions and the true x~.
+    void add_collect_accesses(Step::Adding& task, const ObstaclePushes& obstacles, int first,
+                              int last);
+
+    /// What stays of slips, where a substep ends.
+    Launch keep_slips();
+    void add_keep_accesses(Step::Adding& task, int first, int last) {
+        task.updates(slips_, first, last);
+    }
+    /// [vertices] what the next substep goes on with
+    Buffer<float4>& slips() { return slips_; }
+
+private:
+    Model& model_;
+    float creep_, reach_;
+    Buffer<float> solid_;             ///< [vertices] see the kernels for all of these
+    Buffer<float> hardness_;          ///< [vertices]
+    Buffer<float4> targets_;          ///< [vertices]
+    Buffer<float4> starts_;           ///< [vertices]
+    Buffer<float4> slips_;            ///< [vertices]
+};
+
+}  // namespace weft
