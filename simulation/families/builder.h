@@ -73,6 +73,12 @@ public:
     virtual void add_firmness(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
                               std::span<double> /*firmness*/) const {}
 
+    /// Adds to each vertex its share of what holds back where a cloth is stretched along a unit
+    /// vector in its plane, and not across it: the energy's second derivative by that strain.
+    /// rest, resistance: [vertices] in scene order [m, J]
+    virtual void add_resistance(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
+                                std::span<double> /*resistance*/) const {}
+
     /// What of the family the scene leaves out. exists: the model has elements of it
     virtual std::vector<Absence> absences(const Scene& scene, bool exists) const = 0;
 

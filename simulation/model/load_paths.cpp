@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "simulation/model/spans.h"
 #include "simulation/topology/vertex_graph.h"
 
 namespace weft {
@@ -46,6 +47,7 @@ public:
         : all_(all),
           down_(length(gravity) > 0.0 ? normalized(gravity) : Vec3{}),
           graph_(make_graph(all, links)),
+          spans_(all, down_),
           seen_(all.rest.size(), kFar),
           levels_(seen_) {
         for (const BodyRange& body : all.bodies) {
@@ -83,7 +85,10 @@ private:
         if (path.is_solid && path.is_held) {
             path.slender = std::max(1.0, path.levels * path.edge / thickness_of(part));
         }
-        if (path.is_held && length(down_) > 0.0) add_bending(path, part, masses);
+        if (path.is_held && length(down_) > 0.0) {
+            add_bending(path, part, masses);
+            spans_.add_to(path, part, masses);
+        }
         return path;
     }
 
@@ -223,6 +228,7 @@ private:
     const Gathered& all_;
     Vec3 down_;  ///< 0: without gravity
     VertexGraph graph_;
+    Spans spans_;
     std::vector<int> seen_, levels_;  ///< [vertices]
     std::vector<int> all_held_;       ///< [bodies] 1: pins hold all of it
     std::vector<Vec3> from_held_;     ///< [vertices] [m]

@@ -27,6 +27,13 @@ struct LoadPath {
     double softness = 0.0;
     /// What holds a vertex back from moving alone along gravity, over its mass, mean [1/s^2].
     double firmness = 0.0;
+
+    // Of cloth that bears its weight across, between pins that stay; else 0.
+    double span = 0.0;    ///< from pins to pins [m]
+    double slack = 0.0;   ///< how much longer than that it is at rest, in parts of it
+    double pull = 0.0;    ///< what acts across it, in parts of the weight of the cloth alone
+    double stride = 0.0;  ///< length of its edges along the span, mean [m]
+    double wave = 0.0;    ///< how fast waves of stretch run there [m/s]
 };
 
 /// One per connected part with an edge.

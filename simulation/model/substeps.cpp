@@ -48,7 +48,9 @@ std::vector<LoadPath> paths_of(const Scene& scene, const Gathered& all) {
     std::vector<LoadPath> paths = load_paths(all, links, bending);
     for (LoadPath& path : paths) {
         path.firmness /= share_of_bending(scene.solver);
-        if (method != Method::kXpbd) path.burden = 1.0;
+        if (method == Method::kXpbd) continue;
+        path.burden = 1.0;
+        path.span = 0.0;
     }
     return paths;
 }
@@ -83,7 +85,7 @@ public:
 
     int chosen() const {
         // Corrections so fine that single precision loses them carry no weight any farther.
-        const double strain = std::min(for_strain(), of_rounding());
+        const double strain = std::min(std::max(for_strain(), for_spans()), of_rounding());
         const double all = std::max({scene_.dt / kLongestStep, strain, for_bending()});
         return static_cast<int>(std::min(rounded(all), kMostSubsteps));
     }
@@ -104,16 +106,25 @@ public:
         }
     }
 
-    /// Of the one that needs the most more than there are.
+    void warn_of_spans(int substeps, Warnings& warnings) const {
+        constexpr double kMore = 1.25;
+        const auto [worst, wanted] =
+            worst_of(kMore * substeps, [&](const LoadPath& path) { return for_span(path); });
+        if (worst == nullptr) return;
+        const double kept = finished_stiffness(*worst, scene_.dt / substeps, iterations_);
+        const double sag =
+            sag_of_span(*worst, counted_gravity(), kept) / sag_of_span(*worst, counted_gravity());
+        warnings.push_back(fmt::format(
+            "'{}' is stretched between where it is held, and is so stiff and fine that {} substeps "
+            "of {} iterations of xpbd let it sag {:.2g} times as far as it should; scene.substeps "
+            "= {:.0f} would do, or longer edges, or another solver",
+            worst->body, substeps, iterations_, sag, rounded(wanted)));
+    }
+
     void warn_of_sag(int substeps, Warnings& warnings) const {
         constexpr double kFarMore = 1.5;
-        const LoadPath* worst = nullptr;
-        double wanted = kFarMore * substeps;
-        for (const LoadPath& path : paths_) {
-            if (for_bending(path) <= wanted) continue;
-            worst = &path;
-            wanted = for_bending(path);
-        }
+        const auto [worst, wanted] =
+            worst_of(kFarMore * substeps, [&](const LoadPath& path) { return for_bending(path); });
         if (worst == nullptr) return;
         const double sag = 1.0 + unfinished_sag(*worst, scene_.dt / substeps, iterations_);
         warnings.push_back(fmt::format(
@@ -124,6 +135,18 @@ public:
     }
 
 private:
+    /// The one that needs the most of all, and how many; null: none needs more than that.
+    template <class Needed>
+    std::pair<const LoadPath*, double> worst_of(double most, const Needed& needed) const {
+        const LoadPath* worst = nullptr;
+        for (const LoadPath& path : paths_) {
+            if (needed(path) <= most) continue;
+            worst = &path;
+            most = needed(path);
+        }
+        return {worst, most};
+    }
+
     /// Whether its weight is ever carried: what falls for ever is not stretched by it.
     bool bears(const LoadPath& path) const {
         return path.is_held || !scene_.obstacles.empty() || scene_.contact;
@@ -141,6 +164,16 @@ private:
             substeps = std::max(
                 substeps, substeps_for_strain(path, scene_.dt, iterations_, counted_gravity()));
         }
+        return substeps;
+    }
+
+    double for_span(const LoadPath& path) const {
+        return substeps_for_span(path, scene_.dt, iterations_, counted_gravity());
+    }
+
+    double for_spans() const {
+        double substeps = 1.0;
+        for (const LoadPath& path : paths_) substeps = std::max(substeps, for_span(path));
         return substeps;
     }
 
@@ -171,6 +204,7 @@ Scene with_substeps(Scene scene, const Gathered& all, Warnings& warnings) {
     const Substeps substeps(scene, all);
     const int count = scene.substeps > 0 ? scene.substeps : substeps.chosen();
     substeps.warn_of_strain(count, warnings);
+    substeps.warn_of_spans(count, warnings);
     substeps.warn_of_sag(count, warnings);
     scene.substeps = count;
     return scene;

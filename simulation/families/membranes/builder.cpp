@@ -23,6 +23,17 @@ public:
         return std::make_unique<Membranes>(names(), stencils(), strips, rest_, stiffness_);
     }
 
+    void add_resistance(std::span<const Vec3> /*rest*/, Vec3 /*along*/,
+                        std::span<double> resistance) const override {
+        for (int t = 0; t < stencils().count(); ++t) {
+            const auto& [width, along, height] = rest_[static_cast<std::size_t>(t)];
+            const auto& [mu, lambda] = stiffness_[static_cast<std::size_t>(t)];
+            for (const int v : stencils()[t]) {
+                resistance[static_cast<std::size_t>(v)] += (mu + lambda) * width * height / 6.0;
+            }
+        }
+    }
+
     std::vector<Absence> absences(const Scene& /*scene*/, bool exists) const override {
         if (exists) return {};
         return {{"membranes", "no cloth has a membrane"}};

@@ -42,6 +42,22 @@ public:
                                          edge_count_);
     }
 
+    void add_resistance(std::span<const Vec3> rest, Vec3 along,
+                        std::span<double> resistance) const override {
+        for (int s = 0; s < edge_count_; ++s) {
+            const auto i = static_cast<std::size_t>(s);
+            const auto a = static_cast<std::size_t>(stencils()[s][0]);
+            const auto b = static_cast<std::size_t>(stencils()[s][1]);
+            const Vec3 edge = rest[b] - rest[a];
+            if (length(edge) == 0.0) continue;
+            const double cosine = dot(normalized(edge), along);
+            const double change = static_cast<double>(lengths_[i]) * cosine * cosine;
+            const double half = 0.5 * change * change / static_cast<double>(compliances_[i]);
+            resistance[a] += half;
+            resistance[b] += half;
+        }
+    }
+
     std::vector<Absence> absences(const Scene& scene, bool exists) const override {
         std::vector<Absence> list;
         if (!exists) {

@@ -29,6 +29,28 @@ public:
         return std::make_unique<WovenCloth>(names(), stencils(), strips, edges_, warp_, stiffness_);
     }
 
+    void add_resistance(std::span<const Vec3> rest, Vec3 along,
+                        std::span<double> resistance) const override {
+        for (int t = 0; t < stencils().count(); ++t) {
+            const auto i = static_cast<std::size_t>(t);
+            const auto x = [&](std::size_t k) {
+                return rest[static_cast<std::size_t>(stencils()[t][k])];
+            };
+            const Vec3 warp = warp_[i][0] * (x(1) - x(0)) + warp_[i][1] * (x(2) - x(0));
+            if (length(warp) == 0.0) continue;
+            const double cosine = dot(normalized(warp), along);
+            const double warps = cosine * cosine;
+            const double wefts = 1.0 - warps;
+            const auto& [k_warp, k_weft, k_shear] = stiffness_[i];
+            const double stiffness =
+                k_warp * warps * warps + k_weft * wefts * wefts + 4.0 * k_shear * warps * wefts;
+            const double area = 0.5 * length(cross(edges_[i][0], edges_[i][1]));
+            for (const int v : stencils()[t]) {
+                resistance[static_cast<std::size_t>(v)] += stiffness * area / 3.0;
+            }
+        }
+    }
+
     std::vector<Absence> absences(const Scene& /*scene*/, bool exists) const override {
         if (exists) return {};
         return {{"woven cloth", "no cloth is woven"}};

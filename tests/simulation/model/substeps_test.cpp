@@ -59,6 +59,52 @@ TEST(Substeps, LeftOutAreChosenForBending) {
     EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
+const std::string kBothEnds =
+    "pins = { box = [[[-1.0, -1.0, -1.001], [1.0, 1.0, -0.999]], [[-1.0, -1.0, 0.999], [1.0, 1.0, "
+    "1.001]]] }\n";
+
+TEST(Substeps, LeftOutAreChosenForSpansByXpbd) {
+    Warnings warnings;
+    Scene scene = parse_scene(kSheet + kBothEnds, "test.toml");
+    scene.cloths[0].stretch.stiffness = 1.0e4;
+    const auto chosen = [&] { return Model(scene, warnings).scene.substeps; };
+    const int taut = chosen();
+    EXPECT_GT(taut, 20);
+    EXPECT_LT(taut, 40);
+    std::get<GridShape>(scene.cloths[0].shape).resolution = {21, 41};
+    EXPECT_NEAR(chosen(), 2 * taut, 0.05 * 2 * taut) << "in proportion to the resolution";
+    for (const Method method : {Method::kVbd, Method::kSosd, Method::kJpgd, Method::kNewton}) {
+        scene.solver.method = method;
+        EXPECT_LT(chosen(), 10) << name_of(method);
+    }
+    EXPECT_TRUE(warnings.empty()) << warnings[0];
+}
+
+TEST(Substeps, ThatAreTooFewForSpansAreWarnedOf) {
+    Scene scene = parse_scene(kSheet + kBothEnds, "test.toml");
+    const int good = with_substeps(scene).substeps;
+    const auto warns = [&](int substeps) {
+        scene.substeps = substeps;
+        Warnings warnings;
+        const Model model(scene, warnings);
+        const std::string hint = fmt::format("scene.substeps = {} would do", good);
+        return warnings.size() == 1 && warnings[0].find(hint) != std::string::npos;
+    };
+    EXPECT_FALSE(warns(good));
+    EXPECT_FALSE(warns(9 * good / 10));
+    EXPECT_TRUE(warns(good / 2));
+    scene.solver.method = Method::kVbd;
+    EXPECT_FALSE(warns(good / 2));
+    scene.solver.method = Method::kXpbd;
+    scene.cloths[0].stretch.stiffness = 1.0e9;
+    scene.substeps = 0;
+    Warnings warnings;
+    EXPECT_LE(Model(scene, warnings).scene.substeps, kMostSubsteps);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("'sheet' is stretched between where it is held"), std::string::npos)
+        << warnings[0];
+}
+
 TEST(Substeps, ThatTheLimitCutsAreWarnedOf) {
     Scene strip = parse_scene(kStrip, "test.toml");
     strip.cloths[0].bend->stiffness = 200.0;

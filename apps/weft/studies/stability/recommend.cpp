@@ -59,6 +59,8 @@ private:
         for (const std::string& warning : warnings) {
             if (warning.find("too fine for scene.substeps") != std::string::npos)
                 fail(trial, "too few steps for so fine a mesh");
+            if (warning.find("is stretched between where it is held") != std::string::npos)
+                fail(trial, "too few steps for what is stretched between pins");
         }
         std::vector<double> times;
         while (simulation.frame() < scene.frames && trial.holds && is_time_left()) {
