@@ -16,6 +16,26 @@ public:
     Ground(std::span<const Vec3> rest, std::span<const int> held, Vec3 down)
         : rest_(rest), held_(held), down_(down) {}
 
+    /// Whether held vertices are all around the place, or nearly: what is held by one side hangs
+    /// from that, even if a part of it lies between two corners.
+    bool surrounds(Vec3 place) const {
+        constexpr double kWidestGap = 200.0 * std::numbers::pi / 180.0;
+        const Vec3 axis = std::abs(down_.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        const Vec3 right = normalized(cross(down_, axis));
+        const Vec3 ahead = cross(right, down_);
+        std::vector<double> angles;
+        for (const int v : held_) {
+            const Vec3 there = way(place, v);
+            angles.push_back(std::atan2(dot(there, ahead), dot(there, right)));
+        }
+        std::ranges::sort(angles);
+        double widest = angles.front() + 2.0 * std::numbers::pi - angles.back();
+        for (std::size_t i = 1; i < angles.size(); ++i) {
+            widest = std::max(widest, angles[i] - angles[i - 1]);
+        }
+        return widest <= kWidestGap;
+    }
+
     /// From the held vertex that is nearest to the place to the nearest one in line behind it. 0:
     /// there is none.
     Vec3 span_through(Vec3 place) const {
@@ -193,6 +213,10 @@ Vec3 widest_span(std::span<const Vec3> rest, std::span<const int> held, std::spa
                  Vec3 down) {
     constexpr int kTried = 200;
     const Ground ground(rest, held, down);
+    Vec3 middle;
+    for (const int v : loose)
+        middle = middle + 1.0 / static_cast<double>(loose.size()) * rest[at(v)];
+    if (!ground.surrounds(middle)) return {};
     Vec3 widest;
     for (int i = 0; i < kTried; ++i) {
         // Spread over all of them, whatever their order.

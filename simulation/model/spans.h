@@ -37,7 +37,8 @@ private:
 };
 
 /// The longest way straight from one of the held vertices to another that a loose one lies about
-/// in the middle of, seen along gravity; of those through the same one, the shortest. 0: none.
+/// in the middle of, seen along gravity; of those through the same one, the shortest. 0: none, or
+/// the loose ones, on the whole, are not between the held ones.
 /// down: of length 1
 Vec3 widest_span(std::span<const Vec3> rest, std::span<const int> held, std::span<const int> loose,
                  Vec3 down);

@@ -58,6 +58,8 @@ TEST(Spans, AreNotOfWhatHangsFromOneSide) {
     EXPECT_EQ(span_by("pins = { edges = [\"x-\"] }\n"), 0.0);
     EXPECT_EQ(span_by("pins = { edges = [\"x-\", \"z-\"] }\n"), 0.0);
     EXPECT_EQ(span_by("pins = { corners = [\"x-z-\"] }\n"), 0.0);
+    EXPECT_EQ(span_by("pins = { corners = [\"x-z-\", \"x+z-\"] }\n"), 0.0);
+    EXPECT_EQ(span_by("pins = { corners = [\"x-z-\", \"x-z+\"] }\n"), 0.0);
     EXPECT_EQ(span_by("pins = { box = [[-0.11, -1, -0.11], [0.11, 1, 0.11]] }\n"), 0.0)
         << "over a small table";
     EXPECT_EQ(path_of(kScene + kSprings + kBothEnds, {}).span, 0.0) << "nothing pulls";
