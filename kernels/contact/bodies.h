@@ -189,8 +189,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         real3 lever = subtract(xyz(point), centre);
         if (has_moved) {
             const integer other = address(opposite);
-            const real3 other_lever =
-                subtract(xyz(other_point), xyz(gather4(moments_of, other)));
+            const real3 other_lever = subtract(xyz(other_point), xyz(gather4(moments_of, other)));
             const real3 other_way =
                 add(way_of_motion(gather_motion(motions, body_count + 1, other), other_lever),
                     way_of_strain(gather_motion(strains, body_count + 1, other), other_lever));

@@ -13,8 +13,8 @@
 //
 // where `known` is what the obstacle is known to bear there (bodies/reactions.h), none before the
 // first iteration; the solid lacks that no more, so what counts is how much more or less it gets.
-// It rubs as contacts do: by the slip since the vertex came to lie there (sticking.h), and as hard as
-// what bears the body says (bearings.h).
+// It rubs as contacts do: by the slip since the vertex came to lie there (sticking.h), and as hard
+// as what bears the body says (bearings.h).
 
 #include "kernels/bodies/runs.h"
 #include "kernels/contact/rows.h"
@@ -41,7 +41,8 @@ WEFT_INLINE derivatives add_resting(derivatives s, contact_entry c, mask on, rea
     return s;
 }
 
-/// x~ as rounds see it: solids are led by what obstacles bear across their surfaces, and by no more.
+/// x~ as rounds see it: solids are led by what obstacles bear across their surfaces, and by no
+/// more.
 /// targets, starts  [vertices] xyz: x~ with all pushes, and before them [m]; w of the first: the
 ///                  grip (obstacles/grip.h) [m]
 /// pressing         [vertices] see obstacles/contact.h
@@ -84,8 +85,8 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
                    WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
                    WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
-                   WEFT_GLOBAL float* presses, int column_count, int body_count,
-                   int obstacle_count, float reach, float inverse_h2, int instance) {
+                   WEFT_GLOBAL float* presses, int column_count, int body_count, int obstacle_count,
+                   float reach, float inverse_h2, int instance) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole push_start = load_whole(push_rows, i);
@@ -132,7 +133,8 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
     store_whole(push_needs, i, larger_whole(found, load_whole(push_needs, i)));
 }
 
-/// What stays of the slips of vertices along the obstacles that they are near, where a substep ends.
+/// What stays of the slips of vertices along the obstacles that they are near, where a substep
+/// ends.
 /// slips  [vertices] from what there was to what there is, xyz [m]
 /// creep  e [m] > 0: what is beyond has slid for good
 /// others as in collect_resting

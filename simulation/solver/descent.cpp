@@ -55,9 +55,10 @@ void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& de
                                        bool keeps_blocks) {
     Buffer<float4>* starts = momentum_.starts();
     if (starts == nullptr || !momentum_.bodies()->has_solids()) return;
-    const Reactions::Setting setting{positions,   targets_,          *starts,      items,
-                                     derivatives, std::move(phases), keeps_blocks, contact_.get(),
-                                     momentum_.resting() ? momentum_.pressing() : nullptr};
+    const Reactions::Setting setting{
+        positions,    targets_,       *starts,
+        items,        derivatives,    std::move(phases),
+        keeps_blocks, contact_.get(), momentum_.resting() ? momentum_.pressing() : nullptr};
     reactions_ = std::make_unique<Reactions>(model_, *momentum_.bodies(), setting, next_kind());
 }
 

@@ -46,8 +46,8 @@ Launch RestingBodies::see(Buffer<float4>& targets, const ObstaclePushes& obstacl
                   *obstacles.pressing, solid_, targets_, starts_);
 }
 
-Launch RestingBodies::collect(BodyPushes& pushes, Buffer<float4>& positions,
-                              Buffer<float4>& starts, int body_count) {
+Launch RestingBodies::collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
+                              int body_count) {
     return pushes.collect_resting({positions, *model_.previous, targets_, starts, slips_,
                                    model_.obstacles->placements(), solid_, hardness_, body_count,
                                    model_.obstacles->count(), reach_});

@@ -44,11 +44,11 @@ public:
 private:
     Model& model_;
     float creep_, reach_;
-    Buffer<float> solid_;             ///< [vertices] see the kernels for all of these
-    Buffer<float> hardness_;          ///< [vertices]
-    Buffer<float4> targets_;          ///< [vertices]
-    Buffer<float4> starts_;           ///< [vertices]
-    Buffer<float4> slips_;            ///< [vertices]
+    Buffer<float> solid_;     ///< [vertices] see the kernels for all of these
+    Buffer<float> hardness_;  ///< [vertices]
+    Buffer<float4> targets_;  ///< [vertices]
+    Buffer<float4> starts_;   ///< [vertices]
+    Buffer<float4> slips_;    ///< [vertices]
 };
 
 }  // namespace weft

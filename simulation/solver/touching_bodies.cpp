@@ -42,8 +42,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
                                Buffer<float>* multipliers, int first_kind)
     : model_(model),
       bodies_(bodies),
-      resting_(multipliers ? nullptr
-                           : RestingBodies::of(model, bodies, contact.rubbing().creep)),
+      resting_(multipliers ? nullptr : RestingBodies::of(model, bodies, contact.rubbing().creep)),
       is_rubbed_(contact.rubbing().friction > 0 || (resting_ && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
       pushes_(contact.rows(), bodies.columns(), contact.rubbing(), multipliers, model.h),
@@ -128,9 +127,11 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
     obstacles_ = obstacles;
     collect_.launches = collect(positions);
     for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
-        sums_again_[at(level)] = {"momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .level = level})};
+        sums_again_[at(level)] = {
+            "momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .level = level})};
     }
-    strain_sums_ = {"momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .is_strain = 1})};
+    strain_sums_ = {"momentum", kind,
+                    sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .is_strain = 1})};
     return sum_round({.is_rubbed = is_rubbed_});
 }
 
@@ -146,8 +147,7 @@ std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
                           std::back_inserter(launches));
     launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
     if (resting_)
-        launches.push_back(
-            resting_->collect(pushes_, positions, *obstacles_.starts, body_count()));
+        launches.push_back(resting_->collect(pushes_, positions, *obstacles_.starts, body_count()));
     return launches;
 }
 

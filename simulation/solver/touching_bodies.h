@@ -69,8 +69,8 @@ private:
     Model& model_;
     FreeBodies& bodies_;
     std::unique_ptr<RestingBodies> resting_;  ///< null: see resting()
-    int is_rubbed_;  ///< 1 with friction
-    int parts_;      ///< that are summed up
+    int is_rubbed_;                           ///< 1 with friction
+    int parts_;                               ///< that are summed up
     BodyPushes pushes_;
     BodyGroups& groups_;
     int lag_count_;

@@ -208,11 +208,11 @@ void collect_resting_case(KernelCase& c) {
     auto& points = c.add<float4>("points", rows.entries);
     auto& other_points = c.add<float4>("other_points", rows.entries);
     auto& presses = c.add<float>("presses", rows.entries);
-    c.launch = launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen,
-                      starts, kept, obstacles, solid, hardness, members, shares, column_rows,
-                      rows.rows, rows.counts, needs, codes, sides, slips, forces, points,
-                      other_points, presses, c.items, response::kBodies, kObstacles, 0.1f, 1e4f,
-                      kInstance);
+    c.launch =
+        launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen, starts,
+               kept, obstacles, solid, hardness, members, shares, column_rows, rows.rows,
+               rows.counts, needs, codes, sides, slips, forces, points, other_points, presses,
+               c.items, response::kBodies, kObstacles, 0.1f, 1e4f, kInstance);
 }
 
 void keep_resting_slips_case(KernelCase& c) {
