@@ -203,7 +203,8 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                     tell(own_bearing, other_bearing, opposite < splat_whole(body_count), c.normal);
             }
         }
-        if (!any_item(both(on, (is_pushed(c) ? one : press) > zero))) continue;
+        const mask is_on = both(on, (is_pushed(c) ? one : press) > zero);
+        if (!any_item(is_on) && !any_item(rests)) continue;
         derivatives push = add_push(zero_derivatives(), c, meets, no_way, 0.0f, creep);
         push = add_resting(push, c, rests, other_point.w);
         if (is_rubbed) {

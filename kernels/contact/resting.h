@@ -111,7 +111,7 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             if (!any_item(is_near)) continue;
             // Of several that are known to push as one, the first ones push.
             const real3 normal = apply_back(o, near.normal);
-            const real way = larger(dot3(led, normal), zero);
+            const real way = is_near ? larger(dot3(led, normal), zero) : zero;
             led = add_scaled(led, normal, -way);
             const real known = way * splat(inverse_h2) / (is_near ? x.w : one);
             const real3 slid = slid_along(o, xyz(x), before, normal);
