@@ -214,8 +214,9 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             push = add_rubbing(push, c, pull, no_way);
             if (!is_strain) {
                 const real now = rests ? press_of_resting(c, other_point.w) : press_of_gap(c);
-                const real weight = rests ? splat(has_moved ? 0.5f : 0.0f) : splat(0.5f);
-                const real mean = press + weight * (now - press);
+                // Before they are led, how far solids are in obstacles does not say.
+                real mean = splat(0.5f) * (press + now);
+                if (!has_moved) mean = rests ? press : mean;
                 bearing said =
                     bearing_at(c, mean, pressed, told.part, pull, has_moved ? one : zero, yielding);
                 const real known = rests ? other_point.w * yielding : zero;

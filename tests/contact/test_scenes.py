@@ -59,9 +59,10 @@ def test_nothing_passes(tmp_path, text):
 
 def test_contacts_of_cloth_are_solved_by_xpbd(tmp_path):
     """Projected with the elements alone, they left 2.4 J here, and warnings of it; solved far
-    better, by eight times as many steps of vbd, there are 0.38."""
+    better, by eight times as many steps of vbd, there are 0.38. (What the start says of so few steps
+    is how far the sheet would sag in the end.)"""
     _, summary = simulate(tmp_path, scenes.SHORT["knife"].replace('"vbd"', '"xpbd"'))
-    assert summary["warnings"] == []
+    assert [text for text in summary["warnings"] if " let it sag " not in text] == []
     assert summary["energy"] < 0.6
 
 
