@@ -63,8 +63,8 @@ const TestScene kScenes[] = {
     {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "e3b5443f5fafb11fe112237e2523c804"},
     {"VbdNarrow", kNarrow, Method::kVbd, "148b09146b7c8c0862b67c26455c12ef"},
     {"SosdNarrow", kNarrow, Method::kSosd, "bd92f2d2f99dbb2d1a9f3bf4bbf64a21"},
-    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "c7f64f7cdb14073a0ffc872a49752d82"},
-    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "9046c74d77a810477ec5941c990a1b3b"},
+    {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "6ffa3702f639c6c439ef8bdfb0d114e3"},
+    {"NewtonNarrow", kNarrowTouching, Method::kNewton, "0fd9eacf48a0637ed9ceebdd2ab415c2"},
     {"JpgdWoven", kWoven, Method::kJpgd, "07f820a0af9a8e04d2f4773335a1bb4b"},
 };
 
