@@ -11,8 +11,9 @@
 # Give every header of yours that a kernel includes, too. With ROOT, messages of OpenCL compilers
 # name the headers from that folder on.
 #
-# Kernels are compiled with strict arithmetic and -O3, whatever the target's other sources are; with
-# sanitizers by -O1, as what they add to packs takes half an hour to compile otherwise.
+# Kernels are compiled with strict arithmetic and -O3, whatever the target's other sources are; by
+# -O1 those that take much longer otherwise: with sanitizers half an hour, and packs for x86-64
+# without AVX2, which choose lanes by branches, five times as long.
 
 include_guard()
 
@@ -38,8 +39,10 @@ function(weft_add_kernels target)
   set(strict ${level} -fno-fast-math -ffp-contract=off -fno-math-errno)
   set(anchors "")
   _weft_kernel_sources(scalar "#define WEFT_SCALAR_TARGET" "${strict}")
-  _weft_packed_sources(packed kPacked 8 "")
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    _weft_packed_sources(packed kPacked 8 "")
+  else()
+    _weft_packed_sources(packed kPacked 8 "-O1")
     _weft_packed_sources(packed_avx2 kPackedAvx2 8 "-mavx2")
     if(NOT WEFT_SANITIZE)     # whose code that runs when a program starts would need AVX-512, too
       _weft_packed_sources(packed_avx512 kPackedAvx512 16

@@ -7,9 +7,8 @@
 // r x (x~ - x), or of (R r) x (x~ - x + r - R r) once it is turned by R: no single vertex is needed
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
-#define WEFT_MOMENT_PARTS 13
+#define WEFT_MOMENT_PARTS 9
 
-#include "kernels/bodies/holding.h"
 #include "kernels/bodies/motions.h"
 #include "kernels/bodies/runs.h"
 
@@ -25,11 +24,7 @@ typedef struct {
     real3 torque;  ///< of r x push [m^2]
     real3 way;     ///< that it has gone in the substep [m]
     real lead;     ///< of push . way: of what has been pushed [m^2]
-    real pushed;   ///< above 0 where obstacles have pushed vertices of what is not to be turned [m]
-    holding hold;  ///< of what is, none of the rest, as are those here:
-    real3 normal;  ///< of obstacles' surfaces, times how far these have pushed [m]
-    real depth;    ///< the second alone
-    real grip;     ///< that times the friction coefficient
+    real pushed;   ///< above 0 where obstacles have pushed vertices [m]
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
@@ -41,10 +36,6 @@ WEFT_INLINE moments no_moments(void) {
                  make_mat(zero, zero, zero),
                  zero,
                  zero,
-                 zero,
-                 splat(0.0f),
-                 splat(0.0f),
-                 no_holding(),
                  zero,
                  splat(0.0f),
                  splat(0.0f)};
@@ -63,14 +54,10 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     a.way = add_scaled(a.way, b.way, share);
     a.lead = a.lead + b.lead * share;
     a.pushed = a.pushed + b.pushed * share;
-    a.hold = add_share_of_holding(a.hold, b.hold, share);
-    a.normal = add_scaled(a.normal, b.normal, share);
-    a.depth = a.depth + b.depth * share;
-    a.grip = a.grip + b.grip * share;
     return a;
 }
 
-/// table  [13 * rows] column-major: a column per part
+/// table  [9 * rows] column-major: a column per part
 WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
@@ -81,12 +68,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
     store4(table, column(i, rows, 6), with_w(m.push, m.pushed));
     store4(table, column(i, rows, 7), with_w(m.way, m.lead));
-    const sym3 held = m.hold.spread;
-    store4(table, column(i, rows, 8), with_w(m.hold.place, m.hold.part));
-    store4(table, column(i, rows, 9), with_w(make3(held.xx, held.xy, held.xz), splat(0.0f)));
-    store4(table, column(i, rows, 10), with_w(make3(held.yy, held.yz, held.zz), splat(0.0f)));
-    store4(table, column(i, rows, 11), with_w(m.torque, m.depth));
-    store4(table, column(i, rows, 12), with_w(m.normal, m.grip));
+    store4(table, column(i, rows, 8), with_w(m.torque, splat(0.0f)));
 }
 
 /// The parts of row k, of which the next one is so many further.
@@ -109,18 +91,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
     const real4 way = gather4(table + 7 * stride, k);
     m.way = xyz(way);
     m.lead = way.w;
-    const real4 torque = gather4(table + 11 * stride, k);
-    m.torque = xyz(torque);
-    m.depth = torque.w;
-    const real4 normal = gather4(table + 12 * stride, k);
-    m.normal = xyz(normal);
-    m.grip = normal.w;
-    const real4 place = gather4(table + 8 * stride, k);
-    const real4 first_row = gather4(table + 9 * stride, k);
-    const real4 rest = gather4(table + 10 * stride, k);
-    m.hold.part = place.w;
-    m.hold.place = xyz(place);
-    m.hold.spread = make_sym(first_row.x, first_row.y, first_row.z, rest.x, rest.y, rest.z);
+    m.torque = xyz(gather4(table + 8 * stride, k));
     return m;
 }
 
@@ -130,19 +101,15 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 ///            in this substep (obstacles/grip.h) [m], and with xpbd, whose bodies turn by themselves
 /// previous, starts  [vertices] xyz: x and x~ before obstacles have pushed [m]; not read unless
 ///            has_pushes
-/// pressing   [vertices] of bodies that are turned, see obstacles/contact.h; likewise
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// firm      [columns] 1: the body is turned while obstacles push it, too; 0: it is not
-/// partials  [13 * columns] written, column-major
+/// partials  [9 * columns] written, column-major
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
-            WEFT_GLOBAL const float4* pressing, WEFT_GLOBAL const int* members,
-            WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* origins, WEFT_GLOBAL const float* firm,
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
             WEFT_GLOBAL float4* partials, int has_pushes, int column_count) {
     const real3 origin = xyz(gather4(positions, load_index(origins, i)));
-    const real turned = load(firm, i);
     moments sum = no_moments();
     const int length = rows[2 * i.first + 1];
     for (int k = 0; k < length; ++k) {
@@ -152,24 +119,18 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         const real3 r = subtract(x, origin);
         const real4 target = gather4(targets, v);
         const real3 lag = subtract(xyz(target), x);
-        const sym3 spread = outer_sym(r, splat(1.0f));
         moments one = no_moments();
         one.centre = x;
-        one.spread = spread;
+        one.spread = outer_sym(r, splat(1.0f));
         one.offset = r;
         one.lag = lag;
         one.lags = outer_mat(r, lag);
-        one.pushed = target.w * (splat(1.0f) - turned);
+        one.pushed = target.w;
         if (has_pushes) {
             one.push = subtract(xyz(target), xyz(gather4(starts, v)));
             one.torque = cross3(r, one.push);
             one.way = subtract(x, xyz(gather4(previous, v)));
             one.lead = dot3(one.push, one.way);
-            one.hold = holding_at(r, spread, target.w, length3(one.push), turned);
-            const real4 pressed = gather4(pressing, v);
-            one.normal = scale(xyz(pressed), turned);
-            one.depth = length3(one.normal);
-            one.grip = pressed.w * turned;
         }
         sum = add_share_of_moments(sum, one, load(shares, entry));
     }
@@ -177,7 +138,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
 }
 
 /// The moments of a body, from its centre of mass.
-/// sums   [13 * (runs + most_runs)] row-major: the parts of a run follow each other
+/// sums   [9 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
 WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
@@ -190,7 +151,6 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
             add_share_of_moments(sum, gather_moments(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
     }
     const real3 back = scale(sum.offset, splat(-1.0f));
-    sum.hold = holding_from(sum.hold, back);
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
     sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));
     sum.torque = add(sum.torque, cross3(back, sum.push));
@@ -198,20 +158,8 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
     return sum;
 }
 
-/// Whether what pushes the body does so from about one side, and is known to: its normals do not
-/// take each other away.
-WEFT_INLINE mask has_one_side(moments m) {
-    const real normal = length3(m.normal);
-    return both(normal > splat(0.0f), normal > splat(0.6f) * m.depth);
-}
-
-/// Where to: along the normal of what bears the body, or as its pushes lead, friction and all.
-WEFT_INLINE real3 up_of(moments m) {
-    const mask is_known = has_one_side(m);
-    const real3 up = make3(is_known ? m.normal.x : m.push.x, is_known ? m.normal.y : m.push.y,
-                           is_known ? m.normal.z : m.push.z);
-    return scale(up, splat(1.0f) / divisor(length3(up)));
-}
+/// Where what bears the body pushes it, friction and all.
+WEFT_INLINE real3 up_of(moments m) { return scale(m.push, splat(1.0f) / divisor(length3(m.push))); }
 
 /// What a body lacks where obstacles bear it.
 typedef struct {
@@ -219,15 +167,10 @@ typedef struct {
     real share;  ///< of what obstacles have pushed it that is left out
 } borne_lag;
 
-/// What bears a body does not throw it. Of bodies that are turned while obstacles push them, pushes
-/// are known with what presses (reactions.h). That has not gone through the body yet if iterations
-/// are few, and is more than bears it then. So these pushes take from what leads the body into the
-/// obstacle, up to all of it, and lead it nowhere.
-///
-/// Others are pushed by what single vertices weigh alone, again in each iteration, until what lies
-/// behind them has followed; after many iterations that are yet too few, that may be more than the
-/// body needs. It may be led as far as what has been pushed has got to, and all that would lead it
-/// further has not been pushed.
+/// What bears a body does not throw it. Obstacles push by what single vertices weigh alone, again
+/// in each iteration, until what lies behind them has followed; after many iterations that are yet
+/// too few, that may be more than the body needs. It may be led as far as what has been pushed has
+/// got to, and all that would lead it further has not been pushed.
 /// lag   how far its inertia leads the body from where it is, with all pushes [m]
 /// gone  how far it has been moved since its moments were taken [m]
 WEFT_INLINE borne_lag without_throw(real3 lag, moments m, real3 gone) {
@@ -236,8 +179,7 @@ WEFT_INLINE borne_lag without_throw(real3 lag, moments m, real3 gone) {
     const real across = larger(dot3(m.push, up), zero);
     const real shrink = splat(1.0f) / divisor(across);
     const real behind = m.lead * shrink - dot3(up, add(m.way, gone));
-    const real allowed = m.pushed > zero ? larger(behind, zero) : zero;
-    const real excess = dot3(lag, up) - allowed;
+    const real excess = dot3(lag, up) - larger(behind, zero);
     const real left_out = larger(smaller(excess, across), zero);
     const borne_lag borne = {add_scaled(lag, m.push, -left_out * shrink), left_out * shrink};
     return borne;
@@ -246,7 +188,7 @@ WEFT_INLINE borne_lag without_throw(real3 lag, moments m, real3 gone) {
 /// Adds up the runs of each body.
 /// sums               as in sum_of_runs
 /// first_run, counts  [bodies]
-/// moments_of         [13 * (bodies + 1)] written, column-major; of the last one nothing
+/// moments_of         [9 * (bodies + 1)] written, column-major; of the last one nothing
 WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {
@@ -261,18 +203,12 @@ WEFT_INLINE sym3 inertia_of(moments m) {
     return add_diagonal(scale_sym(m.spread, splat(-1.0f)), size + splat(2e-5f) * size);
 }
 
-/// The part of a lag along which obstacles push the body: it leads away from what holds it.
-WEFT_INLINE real3 lift_of(real3 lag, moments m) {
-    const real3 up = up_of(m);
-    return scale(up, dot3(lag, up));
-}
-
-/// The form of inertia, in parts of the mass, and of what is held.
-WEFT_INLINE sym6 own_form_of(moments m, holding hold) {
+/// The form of inertia, in parts of the mass.
+WEFT_INLINE sym6 own_form_of(moments m) {
     sym6 a = no_sym6();
     a.shift = diagonal_sym(splat(1.0f));
     a.turn = inertia_of(m);
-    return add_scaled_sym6(a, form_of_holding(hold), splat(1.0f));
+    return a;
 }
 
 /// The mean of (R r - r) r^T, of the mean of r r^T.

@@ -20,14 +20,14 @@ WEFT_KERNELS_BEGIN
 /// borne       [vertices] 1: of a body for which this counts; else 0
 /// vertices    [items] the vertex of each item
 /// sums        [9 * items] gradients of all elements and contacts; see descent/rows.h
-/// pressing    [vertices] see obstacles/contact.h; read only where
-/// only_across is 1: what obstacles bear across their surfaces is all that is asked for
+/// pressing    [vertices] see obstacles/contact.h: what obstacles bear across their surfaces is all
+///             that is asked for
 /// inverse_h2  1 / h^2 [1/s^2], h the substep
 WEFT_KERNEL(lead_by_reactions, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* starts, WEFT_GLOBAL float4* targets,
             WEFT_GLOBAL const float* borne, WEFT_GLOBAL const int* vertices,
-            WEFT_GLOBAL const float* sums, WEFT_GLOBAL const float4* pressing, int only_across,
-            int item_count, float inverse_h2) {
+            WEFT_GLOBAL const float* sums, WEFT_GLOBAL const float4* pressing, int item_count,
+            float inverse_h2) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const integer vertex = load_index(vertices, i);
@@ -35,8 +35,8 @@ WEFT_KERNEL(lead_by_reactions, WEFT_GLOBAL const float4* positions,
     const real4 x = gather4(positions, vertex);
     const mask was_pushed = both(target.w * gather(borne, vertex) > zero, x.w > zero);
     if (!any_item(was_pushed)) return;
-    real3 push = subtract(xyz(target), xyz(gather4(starts, vertex)));
-    if (only_across) push = pushed_along(push, xyz(gather4(pressing, vertex)));
+    const real3 all = subtract(xyz(target), xyz(gather4(starts, vertex)));
+    const real3 push = pushed_along(all, xyz(gather4(pressing, vertex)));
     const real length = length3(push);
     // A few roundings of a coordinate have no direction.
     const mask is_pushed = both(was_pushed, length > splat(2.5e-7f) * length3(xyz(x)));

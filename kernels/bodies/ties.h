@@ -21,15 +21,38 @@
 
 WEFT_KERNELS_BEGIN
 
-/// In parts of the mass over h^2.
+/// Where a part is held, in parts of its mass over h^2, with r from its centre.
 typedef struct {
-    body_motion pull;  ///< force [m], torque [m^2]
-    holding stiff;     ///< where, with r from the part's centre
+    real part;    ///< how stiffly
+    real3 place;  ///< sum of r by that [m]
+    sym3 spread;  ///< of r r^T [m^2]
+} held_places;
+
+typedef struct {
+    body_motion pull;   ///< force [m], torque [m^2], in the same units
+    held_places stiff;  ///< by ties
 } tie_sum;
 
 WEFT_INLINE tie_sum no_ties(void) {
-    tie_sum sum = {no_motion(), no_holding()};
+    const real zero = splat(0.0f);
+    tie_sum sum = {no_motion(), {zero, make3(zero, zero, zero), diagonal_sym(zero)}};
     return sum;
+}
+
+/// a + b * share
+WEFT_INLINE held_places add_share_of_places(held_places a, held_places b, real share) {
+    a.part = a.part + b.part * share;
+    a.place = add_scaled(a.place, b.place, share);
+    a.spread = add_sym(a.spread, scale_sym(b.spread, share));
+    return a;
+}
+
+/// The form of motions, of the ways of what is there.
+WEFT_INLINE sym6 form_of_places(held_places h) {
+    const sym3 turned = scale_sym(h.spread, splat(-1.0f));
+    const sym6 a = {diagonal_sym(h.part), lever_mat(h.place),
+                    add_diagonal(turned, trace_sym(h.spread))};
+    return a;
 }
 
 /// table  [4 * rows] column-major
@@ -50,8 +73,8 @@ WEFT_INLINE tie_sum sum_of_columns(WEFT_GLOBAL const float4* table, int rows, in
         const real4 c = gather4(table + 2 * rows + k, first);
         const real4 d = gather4(table + 3 * rows + k, first);
         sum.pull = add_scaled_motion(sum.pull, make_motion(xyz(a), xyz(b)), splat(1.0f));
-        const holding one = {c.w, xyz(c), make_sym(a.w, b.w, d.w, d.x, d.y, d.z)};
-        sum.stiff = add_share_of_holding(sum.stiff, one, splat(1.0f));
+        const held_places one = {c.w, xyz(c), make_sym(a.w, b.w, d.w, d.x, d.y, d.z)};
+        sum.stiff = add_share_of_places(sum.stiff, one, splat(1.0f));
     }
     return sum;
 }
@@ -65,7 +88,7 @@ WEFT_INLINE real3 way_of_part(WEFT_GLOBAL const float4* motions, int part_count,
 }
 
 /// Before the first round.
-/// sums     [13 * (parts + 1)] row-major: the moments of each part (moments.h)
+/// sums     [9 * (parts + 1)] row-major: the moments of each part (moments.h)
 /// first    [parts] its number
 /// motions  as in way_of_part; written
 WEFT_KERNEL(start_parts, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first,
@@ -110,9 +133,9 @@ WEFT_KERNEL(pull_parts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const i
         const real3 place = add(own, subtract(way, xyz(gather4(motions, part))));
         const real3 lever = subtract(place, xyz(gather4(motions + 2 * (part_count + 1), part)));
         sum.pull = add_scaled_motion(sum.pull, make_motion(pull, cross3(lever, pull)), splat(1.0f));
-        const holding one = {splat(1.0f), lever, outer_sym(lever, splat(1.0f))};
+        const held_places one = {splat(1.0f), lever, outer_sym(lever, splat(1.0f))};
         sum.stiff =
-            add_share_of_holding(sum.stiff, one, load(springs, column(entry, entry_count, 3)));
+            add_share_of_places(sum.stiff, one, load(springs, column(entry, entry_count, 3)));
     }
     store_ties(partials, column_count, i, sum);
 }
@@ -131,8 +154,7 @@ WEFT_KERNEL(step_parts, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* f
         make_motion(xyz(load4(motions, i)), xyz(load4(motions, column(i, part_count + 1, 1))));
     const real3 force = add(subtract(m.lag, done.shift), ties.pull.shift);
     const real3 torque = add(lag_of_turn(m, done.turn), ties.pull.turn);
-    const sym6 form =
-        add_scaled_sym6(own_form_of(m, m.hold), form_of_places(ties.stiff), splat(1.0f));
+    const sym6 form = add_scaled_sym6(own_form_of(m), form_of_places(ties.stiff), splat(1.0f));
     done = add_scaled_motion(done, solve_sym6(form, make_motion(force, torque)), splat(1.0f));
     done.turn = bounded_turn(done.turn);
     store_motion(motions, part_count + 1, i, done);

@@ -118,7 +118,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// standing       [columns] as collect_pushes leaves it, as are rows to other_points
 /// column_bodies  [columns] of which body each is
 /// masses         [bodies] [kg]
-/// moments_of     [13 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
+/// moments_of     [9 * (bodies + 1)] as weigh_bodies leaves them; of the last one zero
 /// motions        [2 * (bodies + 1)] column-major: how far each has gone in the rounds before; the
 ///                last one is zero
 /// strains        [2 * (bodies + 1)] likewise: how they have given way (strains.h)
@@ -270,33 +270,17 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
     store4(rests, column(i, rows, 6), with_w(scale(left.turn, mass), mass));
 }
 
-/// What friction with obstacles makes of the step that the body would take if it held.
-/// gone  how far it has come in the rounds before
-WEFT_INLINE sliding sliding_in_contact(moments body, borne_lag borne, body_sum sum,
-                                       body_motion gone) {
-    const sym6 hold = form_of_holding(body.hold);
-    const body_motion held = multiply_sym6(hold, gone);
-    const body_motion lack = add_scaled_motion(sum.lag, held, splat(-1.0f));
-    const sym6 form = add_scaled_sym6(sum.block, own_form_of(body, body.hold), splat(1.0f));
-    const body_motion all = add_scaled_motion(gone, solve_sym6(form, lack), splat(1.0f));
-    const sliding s = sliding_of(body, borne, multiply_sym6(hold, all).shift);
-    const sym6 free_form = add_scaled_sym6(sum.block, own_form_of(body, no_holding()), splat(1.0f));
-    const body_motion pulled = add_scaled_motion(sum.lag, force_of_sliding(body, s), splat(1.0f));
-    const body_motion slid = add_scaled_motion(gone, solve_sym6(free_form, pulled), splat(1.0f));
-    return against_friction(s, slid);
-}
-
 /// How far each body has to go, as if it were the only one.
 /// lags       [12 or 16 * lag_count] of the runs and more rows, column-major, see above
 /// first_run  [bodies]
 /// counts     [bodies] of its runs
 /// masses     [bodies] [kg]
-/// moments_of [13 * (bodies + 1)] as weigh_bodies leaves them
+/// moments_of [9 * (bodies + 1)] as weigh_bodies leaves them
 /// motions    [2 * (bodies + 1)] from those of the rounds before to those with this one
 /// strains    [2 * (bodies + 1)] none of them in the first round
 /// rests      [7 * bodies] written, see store_rest
-/// bearings   [4 * (bodies + 1)] written with friction, but for how far bodies have gone (groups.h)
-/// slides     [bodies + 1] written: 1: friction with obstacles does not hold the body; else 0
+/// bearings   [4 * (bodies + 1)] written with friction; how far bodies have gone is in that, unless
+///            has_groups: then groups.h adds it
 /// has_moved  as in add_pushed_lags
 /// is_rubbed  1 with friction
 /// most_runs  that a body has; lag_count is that more than there are runs
@@ -304,7 +288,7 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL float4* motions,
             WEFT_GLOBAL float4* strains, WEFT_GLOBAL float4* rests, WEFT_GLOBAL float4* bearings,
-            WEFT_GLOBAL float* slides, int has_moved, int is_rubbed, int most_runs, int lag_count,
+            int has_moved, int is_rubbed, int has_groups, int most_runs, int lag_count,
             int body_count) {
     const real zero = splat(0.0f);
     body_sum sum = no_body_sum();
@@ -329,25 +313,15 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     sum.lag.shift = borne_by.lag;
     sum.lag.turn = add_scaled(sum.lag.turn, body.torque, -borne_by.share);
 
-    const real3 rest = scale(sum.lag.shift, splat(1.0f) - is_held(body.hold));
-    body_step alone = {make_motion(rest, no_motion().turn), zero};
-    if (has_moved)
-        alone.slides = load(slides, i);
-    else
-        alone = missing_motion(body, borne_by);
+    body_motion alone = make_motion(sum.lag.shift, no_motion().turn);
+    if (!has_moved) alone = missing_motion(body, borne_by);
 
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;
     const real touching = mass > zero ? splat(1.0f) : zero;
-    const sliding s = sliding_in_contact(body, borne_by, sum, gone);
-    const holding hold = hold_beside(body.hold, s);
-    sum.lag = add_scaled_motion(sum.lag, force_of_sliding(body, s), splat(1.0f));
-    const body_motion held = multiply_sym6(form_of_holding(hold), gone);
-    sum.lag = add_scaled_motion(sum.lag, held, splat(-1.0f));
-    const sym6 own_form = own_form_of(body, hold);
+    const sym6 own_form = own_form_of(body);
     body_motion step = solve_sym6(add_scaled_sym6(sum.block, own_form, splat(1.0f)), sum.lag);
-    step = add_scaled_motion(add_scaled_motion(no_motion(), step, touching), alone.motion,
+    step = add_scaled_motion(add_scaled_motion(no_motion(), step, touching), alone,
                              splat(1.0f) - touching);
-    store(slides, i, touching > zero ? s.slides : alone.slides);
     const sym6 form = add_scaled_sym6(sum.outside, own_form, splat(1.0f));
     const body_motion left = add_scaled_motion(sum.lag, multiply_sym6(form, step), splat(-1.0f));
     gone = add_scaled_motion(gone, step, splat(1.0f));
@@ -355,6 +329,7 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     store_motion(motions, body_count + 1, i, gone);
     if (is_rubbed) {
         sum.borne.borne = subtract(sum.borne.borne, body.lag);
+        if (!has_groups) sum.borne.borne = add(sum.borne.borne, gone.shift);
         const bearing borne = add_scaled_bearing(no_bearing(), sum.borne, load(masses, i));
         store_bearing(bearings, body_count + 1, i, borne);
     }
@@ -397,20 +372,19 @@ WEFT_INLINE real3 deviation_of_body(WEFT_GLOBAL const float4* motions,
 /// Moves the vertices of free bodies; see move_runs.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
-/// moments_of  [13 * (bodies + 1)] likewise
-/// slides      [bodies + 1] as solve_bodies leaves them; of the last one 0
+/// moments_of  [9 * (bodies + 1)] likewise
 /// are_led     [bodies + 1] 1: the next substep starts from where the body is led as a whole, and
 ///             so from what has held it up as a whole, alike at all of its vertices; else 0
 /// bodies      [vertices] which each belongs to; the last one: to none
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
             WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
-            WEFT_GLOBAL const float* slides, WEFT_GLOBAL const float* are_led,
-            WEFT_GLOBAL const int* bodies, float inverse_h, int body_count) {
+            WEFT_GLOBAL const float* are_led, WEFT_GLOBAL const int* bodies, float inverse_h,
+            int body_count) {
     const integer body = load_index(bodies, i);
     const real3 x = xyz(load4(positions, i));
     const real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
-    shift_vertex(positions, deviations, velocities, i, way, gather(slides, body), inverse_h);
+    shift_vertex(positions, deviations, velocities, i, way, inverse_h);
     const real is_led = gather(are_led, body);
     if (!any_item(is_led > splat(0.0f))) return;
     const real4 own = load4(deviations, i);

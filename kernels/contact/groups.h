@@ -26,7 +26,7 @@ WEFT_INLINE integer body_in_group(WEFT_GLOBAL const int* members, whole first, m
 
 /// How far groups have to go then. A group's first body does it for all.
 /// rests         [7 * bodies] as solve_bodies leaves them
-/// moments_of    [13 * (bodies + 1)] as weigh_bodies leaves them
+/// moments_of    [9 * (bodies + 1)] as weigh_bodies leaves them
 /// motions       [2 * (bodies + 1)] with solve_bodies' step
 /// firsts        [substeps * levels * bodies] where a group's bodies begin in `members`; levels are
 ///               WEFT_GROUP_LEVELS

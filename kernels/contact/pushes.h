@@ -43,6 +43,12 @@ WEFT_INLINE real3 point_of_side(WEFT_GLOBAL const float4* positions, real4 w, re
     return add_scaled(x2, xyz(gather4(positions, address(c3))), larger(w.w * unit, zero));
 }
 
+/// x~ - x [m]
+WEFT_INLINE real3 lag_of_vertex(WEFT_GLOBAL const float4* positions,
+                                WEFT_GLOBAL const float4* targets, integer vertex) {
+    return subtract(xyz(gather4(targets, vertex)), xyz(gather4(positions, vertex)));
+}
+
 /// For each column of a free body's vertices the contacts that they have with others.
 /// positions    [vertices] xyz [m], where contacts are seen
 /// targets      [vertices] xyz: x~ [m]
@@ -96,9 +102,7 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
         const item member = {column_rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
         const whole vertex = load_whole(members, member);
         const real share = load(shares, member);
-        const real3 own_lag = subtract(xyz(gather4(targets, address(vertex))),
-                                       xyz(gather4(positions, address(vertex))));
-        lag = add_scaled(lag, own_lag, share);
+        lag = add_scaled(lag, lag_of_vertex(positions, targets, address(vertex)), share);
         part = part + share;
 
         const whole own_body = gather_whole(bodies, address(vertex));
@@ -162,6 +166,29 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
     store_whole(push_counts, i, smaller_whole(found, room));
     store_whole(push_needs, i,
                 instance == 0 ? found : larger_whole(found, load_whole(push_needs, i)));
+}
+
+/// Likewise where there are no contacts.
+WEFT_KERNEL(collect_no_pushes, WEFT_GLOBAL const float4* positions,
+            WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const int* members,
+            WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* column_rows,
+            WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs, WEFT_GLOBAL float4* standing,
+            int instance) {
+    const whole none = splat_whole(0);
+    const real zero = splat(0.0f);
+    real3 lag = make3(zero, zero, zero);
+    real part = zero;
+    const int length = column_rows[2 * i.first + 1];
+    for (int k = 0; k < length; ++k) {
+        const item member = {column_rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
+        const real share = load(shares, member);
+        lag =
+            add_scaled(lag, lag_of_vertex(positions, targets, load_index(members, member)), share);
+        part = part + share;
+    }
+    store4(standing, i, with_w(lag, part));
+    store_whole(push_counts, i, none);
+    store_whole(push_needs, i, instance == 0 ? none : load_whole(push_needs, i));
 }
 
 /// One entry of a column's row: a contact of the whole side.

@@ -102,14 +102,13 @@ WEFT_INLINE real part_held(real3 slid, real most) {
 /// Who is told of a push by obstacles besides the vertex.
 #define WEFT_PUSH_ALONE 0    ///< nobody: xpbd where no body is moved as a whole
 #define WEFT_PUSH_LEADS 1    ///< x~, which is led along, and the grip
-#define WEFT_PUSH_PRESSES 2  ///< these, and what presses, by which bodies as wholes are held
+#define WEFT_PUSH_PRESSES 2  ///< these, and what presses, as which solids see it
 #define WEFT_PUSH_LAST 3     ///< behind the step of bodies as wholes: the grip
 
 typedef struct {
     real3 place;  ///< of the vertex [m]
     real4 target;
-    real4 pressing;  ///< xyz: the normal times how far it has been pushed, w: the friction
-                     ///< coefficient times that [m]
+    real3 pressing;  ///< the normal times how far it has been pushed [m]
 } pushed_vertex;
 
 /// Moves a vertex out of an obstacle, with Coulomb's friction on positions (Macklin et al. 2014,
@@ -144,7 +143,7 @@ WEFT_INLINE pushed_vertex push_vertex(WEFT_GLOBAL const float4* obstacle, nearne
     const real3 lead = told == WEFT_PUSH_LAST ? scale(way, zero) : way;
     const real left = grip_left(target.w, depth * splat(obstacle[7].y), used);
     v.target = with_w(add(xyz(target), lead), grip_of_pushed(left, depth));
-    v.pressing = with_w(scale(near.normal, depth), depth * splat(obstacle[7].y));
+    v.pressing = scale(near.normal, depth);
     return v;
 }
 
@@ -229,9 +228,8 @@ WEFT_INLINE nearness or_from_plane(nearness near, real3 x, real4 plane, float th
             store4(positions, i, with_w(v.place, x.w));                                         \
             if (told != WEFT_PUSH_ALONE) store4(targets, i, v.target);                          \
             if (told == WEFT_PUSH_PRESSES) {                                                    \
-                const real4 before = load4(pressing, i);                                        \
-                const real3 normal = add(xyz(before), xyz(v.pressing));                         \
-                store4(pressing, i, with_w(normal, before.w + v.pressing.w));                   \
+                const real3 before = xyz(load4(pressing, i));                                   \
+                store4(pressing, i, with_w(add(before, v.pressing), splat(0.0f)));              \
             }                                                                                   \
         }                                                                                       \
     }

@@ -10,8 +10,8 @@ constexpr int kFirstRoom = 16;  ///< of a row
 
 }  // namespace
 
-BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
-                       Buffer<float>* multipliers, double h)
+BodyPushes::BodyPushes(std::optional<ContactRows> contacts, const BodyColumns& columns,
+                       Rubbing rubbing, Buffer<float>* multipliers, double h)
     : contacts_(contacts),
       columns_(columns),
       friction_(static_cast<float>(rubbing.friction)),
@@ -30,14 +30,18 @@ BodyPushes::BodyPushes(const ContactRows& contacts, const BodyColumns& columns, 
       standing_("touching.standing", static_cast<std::size_t>(columns.count)) {}
 
 Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
-                           BodyGroups& groups) {
+                           BodyGroups* groups) {
+    if (!contacts_)
+        return launch(kernels::collect_no_pushes, columns_.by_strip, positions, targets,
+                      columns_.members, columns_.shares, columns_.rows, table_.counts(),
+                      table_.needs(), standing_, kInstance);
     return launch(kernels::collect_pushes, columns_.by_strip, positions, targets, columns_.members,
-                  columns_.shares, columns_.rows, bodies, groups.leaders, contacts_.table.rows(),
-                  contacts_.table.counts(), contacts_.corner0, contacts_.corner1, contacts_.corner2,
-                  contacts_.corner3, contacts_.normals, contacts_.weights, contacts_.measures,
-                  contacts_.slips, multipliers_ ? *multipliers_ : none_, table_.rows(),
-                  table_.counts(), table_.needs(), codes_, sides_, slips_, forces_, points_,
-                  other_points_, presses_, standing_, columns_.count, groups.body_count(),
+                  columns_.shares, columns_.rows, bodies, groups->leaders, contacts_->table.rows(),
+                  contacts_->table.counts(), contacts_->corner0, contacts_->corner1,
+                  contacts_->corner2, contacts_->corner3, contacts_->normals, contacts_->weights,
+                  contacts_->measures, contacts_->slips, multipliers_ ? *multipliers_ : none_,
+                  table_.rows(), table_.counts(), table_.needs(), codes_, sides_, slips_, forces_,
+                  points_, other_points_, presses_, standing_, columns_.count, groups->body_count(),
                   friction_, multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
 }
 
@@ -51,8 +55,8 @@ Launch BodyPushes::collect_resting(const Resting& r) {
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,
                                       int last) {
-    contacts_.add_reads(task, region.begin, region.end, first, last);
-    if (multipliers_) task.reads(*multipliers_, contacts_.table.entries());
+    if (contacts_) contacts_->add_reads(task, region.begin, region.end, first, last);
+    if (multipliers_) task.reads(*multipliers_, contacts_->table.entries());
     const int column = columns_.by_strip.item(region.begin);
     const int end = columns_.by_strip.item(region.end);
     task.updates(table_.counts(), column, end)

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <optional>
+
 #include "runtime/planning/regions.h"
 #include "runtime/row_table.h"
 #include "runtime/step.h"
 #include "simulation/contact/body_columns.h"
 #include "simulation/contact/body_groups.h"
-#include "simulation/contact/frozen.h"
 #include "simulation/contact/rows.h"
+#include "simulation/contact/rubbing.h"
 
 namespace weft {
 
@@ -14,14 +16,16 @@ namespace weft {
 /// column (kernels/contact/pushes.h).
 class BodyPushes {
 public:
-    /// contacts, columns: must outlive this. multipliers: [entries of contacts] by which they press
-    /// where rounds begin; null: they do so as their gaps say. h: the substep [s]
-    BodyPushes(const ContactRows& contacts, const BodyColumns& columns, Rubbing rubbing,
+    /// contacts, columns: must outlive this. contacts: none in scenes that have none. multipliers:
+    /// [entries of contacts] by which they press where rounds begin; null: they do so as their gaps
+    /// say. h: the substep [s]
+    BodyPushes(std::optional<ContactRows> contacts, const BodyColumns& columns, Rubbing rubbing,
                Buffer<float>* multipliers, double h);
 
-    /// Collects them at these positions, those of all vertices. bodies: [vertices], as the kernel's
+    /// Collects them at these positions, those of all vertices. bodies: [vertices], as the
+    /// kernel's; groups: null without contacts
     Launch collect(Buffer<float4>& positions, Buffer<float4>& targets, Buffer<int>& bodies,
-                   BodyGroups& groups);
+                   BodyGroups* groups);
     /// What that needs of a region, besides the positions and the targets.
     void add_collect_accesses(Step::Adding& task, const Region& region, int first, int last);
 
@@ -33,7 +37,7 @@ public:
         int body_count, obstacle_count;
         float reach;
     };
-    /// Behind collect(): adds the vertices that are near convex obstacles.
+    /// Behind collect(), adds the vertices that are near convex obstacles.
     Launch collect_resting(const Resting& resting);
 
     /// The parameters of a round, as the kernel's.
@@ -51,7 +55,7 @@ public:
     RowTable& table() { return table_; }
 
 private:
-    ContactRows contacts_;
+    std::optional<ContactRows> contacts_;
     BodyColumns columns_;
     float friction_, creep_, h2_;
     Buffer<float> none_;          ///< one, of no use

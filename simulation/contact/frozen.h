@@ -5,15 +5,10 @@
 #include <vector>
 
 #include "simulation/contact/rows.h"
+#include "simulation/contact/rubbing.h"
 #include "simulation/mesh/vec3.h"
 
 namespace weft {
-
-/// How all contacts rub each other (kernels/contact/friction.h).
-struct Rubbing {
-    double friction = 0.0;  ///< coefficient
-    double creep = 1.0;     ///< [m] > 0
-};
 
 /// A contact as a substep found it, in double precision. The way from one of its closest points to
 /// the other is linear in the positions, sum_j w_j x_j, and all of its energy depends on that way.

@@ -1,7 +1,6 @@
 #include "simulation/contact/response.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "kernels/contact/begin.h"
@@ -24,8 +23,6 @@ namespace {
 // In parts of the thickness.
 constexpr float kMargin = 0.25f;  ///< by which vertices may go farther than inertia leads them
 
-constexpr double kCreepSpeed = 1e-3;  ///< below which friction sticks [m/s]
-
 // Of a row.
 constexpr int kFirstPairs = 8;
 constexpr int kFewest = 4;  ///< contacts and planes; in small scenes more, as it costs little:
@@ -35,12 +32,6 @@ constexpr int kMost = 27;   ///< not a power of 2, lest rows crowd in a few sets
 int first_room(const Model& model, std::size_t bytes) {
     const std::size_t all = bytes * model.positions->count();
     return std::clamp(static_cast<int>(RowTable::kPlenty / 4 / all), kFewest, kMost);
-}
-
-/// How far surfaces that stick may creep in a substep [m]; no less than coordinates can tell.
-double creep_of(const Model& model) {
-    constexpr double kUlp = std::numeric_limits<float>::epsilon();
-    return std::max(kCreepSpeed * model.h, 4.0 * kUlp * reach_of(model.positions->span()));
 }
 
 std::size_t strips_of(const Model& model) { return static_cast<std::size_t>(model.strips.count()); }
@@ -73,8 +64,8 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       range_(static_cast<float>(model.scene.contact->thickness)),
       floor_(static_cast<float>(
           contact_floor(model.scene.contact->thickness, reach_of(model.positions->span())))),
-      friction_(static_cast<float>(model.scene.contact->friction.value_or(0.0))),
-      creep_(static_cast<float>(creep_of(model))),
+      friction_(static_cast<float>(rubbing_of(model).friction)),
+      creep_(static_cast<float>(rubbing_of(model).creep)),
       anchors_("contact.anchors", model.positions->count()),
       strides_("contact.strides", model.positions->count()),
       goals_("contact.goals", model.positions->count()),

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 namespace weft {
 
@@ -16,20 +15,25 @@ struct EdgeLengths {
     double mean = 0.0, shortest = std::numeric_limits<double>::infinity();  ///< [m]
 };
 
-EdgeLengths edge_lengths(const Gathered& all) {
+EdgeLengths edge_lengths(std::span<const std::array<int, 3>> triangles,
+                         std::span<const Vec3> rest) {
     EdgeLengths lengths;
-    const std::size_t count =
-        all.triangles.size() - static_cast<std::size_t>(all.obstacle_triangles.count());
-    for (const auto& t : std::span(all.triangles).first(count)) {  // obstacles come last
+    for (const auto& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = static_cast<std::size_t>(t[k]);
             const auto b = static_cast<std::size_t>(t[(k + 1) % 3]);
-            const double own = length(all.rest[b] - all.rest[a]);
-            lengths.mean += own / static_cast<double>(3 * count);
+            const double own = length(rest[b] - rest[a]);
+            lengths.mean += own / static_cast<double>(3 * triangles.size());
             lengths.shortest = std::min(lengths.shortest, own);
         }
     }
     return lengths;
+}
+
+EdgeLengths edge_lengths(const Gathered& all) {
+    const std::size_t count =
+        all.triangles.size() - static_cast<std::size_t>(all.obstacle_triangles.count());
+    return edge_lengths(std::span(all.triangles).first(count), all.rest);  // obstacles come last
 }
 
 /// A quarter of the mean edge. What is on both sides of an edge is as near to each other as it is
@@ -41,6 +45,10 @@ double good_thickness(const EdgeLengths& lengths) {
 }
 
 }  // namespace
+
+double good_thickness(std::span<const std::array<int, 3>> triangles, std::span<const Vec3> rest) {
+    return triangles.empty() ? 0.0 : good_thickness(edge_lengths(triangles, rest));
+}
 
 void choose_thickness(Contact& contact, const Gathered& all, Warnings& warnings) {
     const EdgeLengths edge = edge_lengths(all);

@@ -1,8 +1,15 @@
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "simulation/model/gathered.h"
 
 namespace weft {
+
+/// What thickness contacts of such a surface had best have [m], or 0 without triangles.
+/// triangles: of `rest`, by its indices; rest: positions [m]
+double good_thickness(std::span<const std::array<int, 3>> triangles, std::span<const Vec3> rest);
 
 /// Chooses the thickness of contacts where the scene does not say it: a quarter of the mean edge
 /// of all surfaces, and less than the shortest one, so that neighbours in one surface do not count

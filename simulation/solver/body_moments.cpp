@@ -4,12 +4,11 @@
 
 namespace weft {
 
-BodyMoments::BodyMoments(FreeBodies& bodies, PushedSolids solids, Buffer<int>& first_run,
-                         Buffer<float>& counts)
+BodyMoments::BodyMoments(FreeBodies& bodies, Buffer<int>& first_run, Buffer<float>& counts)
     : bodies_(bodies),
       first_run_(first_run),
       counts_(counts),
-      sums_(bodies, solids),
+      sums_(bodies),
       moments_("touching.moments",
                WEFT_MOMENT_PARTS * static_cast<std::size_t>(bodies.body_count() + 1)) {}
 

@@ -9,8 +9,7 @@ namespace weft {
 class BodyMoments {
 public:
     /// bodies must outlive this. first_run, counts: [bodies] of each one's runs
-    BodyMoments(FreeBodies& bodies, PushedSolids solids, Buffer<int>& first_run,
-                Buffer<float>& counts);
+    BodyMoments(FreeBodies& bodies, Buffer<int>& first_run, Buffer<float>& counts);
 
     /// First they are added up by runs,
     MomentSums& sums() { return sums_; }
@@ -18,7 +17,7 @@ public:
     Launch weigh(const Segments& all);
     void add_weigh_accesses(Step::Adding& task);
 
-    /// [13 * (bodies + 1)] see the kernel
+    /// [9 * (bodies + 1)] see the kernel
     Buffer<float4>& moments() { return moments_; }
     void add_reads(Step::Adding& task);
 

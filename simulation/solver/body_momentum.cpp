@@ -15,18 +15,14 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
       targets_(targets),
       free_bodies_(FreeBodies::of(model)),
       sums_{"momentum", first_kind, {}} {
-    if (contact && free_bodies_) {
-        touching_ = std::make_unique<TouchingBodies>(model, *free_bodies_, *contact, multipliers,
-                                                     first_kind + 1);
-    } else if (free_bodies_) {
-        lone_ = std::make_unique<LoneBodies>(*free_bodies_);
-    }
+    if (free_bodies_)
+        touching_ = TouchingBodies::of(model, *free_bodies_, contact, multipliers, first_kind + 1);
+    if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_);
     if (free_bodies_ && (model.obstacles || touching_))
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
     if (free_bodies_ && model.obstacles)
         starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
-    if (starts_ && free_bodies_->has_solids() && !multipliers)
-        pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
+    if (resting()) pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
 }
 
 void BodyMomentum::keep_starts(std::vector<Launch>& launches) {
@@ -55,11 +51,11 @@ void BodyMomentum::add_obstacle_accesses(Step::Adding& task, int first, int last
 
 void BodyMomentum::look_at(Buffer<float4>& positions) {
     positions_ = &positions;
-    const ObstaclePushes pushes{starts_.get(), pressing_.get()};
     if (touching_)
-        sums_.launches = touching_->sum(positions, targets_, pushes, sums_.kind);
+        sums_.launches =
+            touching_->sum(positions, targets_, {starts_.get(), pressing_.get()}, sums_.kind);
     else if (lone_)
-        sums_.launches = lone_->sums().sum(model_, positions, targets_, pushes);
+        sums_.launches = lone_->sums().sum(model_, positions, targets_, starts_.get());
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
@@ -83,14 +79,18 @@ void BodyMomentum::add_first_sums(Step& step, const std::vector<Region>& regions
 void BodyMomentum::add_lead(std::vector<Launch>& launches) {
     if (!touching_ || !touching_->may_be_led()) return;
     launches.push_back(touching_->lead());
+    if (!contact_) return;
     contact_->add_truncation(launches, *model_.positions);
+    contact_->add_start_snapshots(launches, *model_.positions);
 }
 
 void BodyMomentum::add_lead_accesses(Step::Adding& task, StripRange strips) {
     touching_->add_motion_accesses(task);
-    contact_->add_truncation_accesses(task, strips);
     task.updates(*model_.positions, model_.vertices().item(strips.begin),
                  model_.vertices().item(strips.end));
+    if (!contact_) return;
+    contact_->add_truncation_accesses(task, strips);
+    contact_->add_start_snapshot_accesses(task, strips);
 }
 
 /// A motion may lead into what pushes.

@@ -13,8 +13,8 @@
 namespace weft {
 
 /// What keeps the momentum of bodies that nothing holds, however far iterations get. Behind the
-/// last one they are moved as wholes: by what is missing (kernels/bodies/free_bodies.h), and in
-/// scenes with contact as far as what touches them lets them (kernels/contact/bodies.h). Pushes by
+/// last one they are moved as wholes: by what is missing (kernels/bodies/free_bodies.h), and where
+/// something may touch them as far as that lets them (kernels/contact/bodies.h). Pushes by
 /// obstacles are no loss: they move x~ along.
 class BodyMomentum {
 public:
@@ -38,7 +38,7 @@ public:
     /// What obstacles press, of a substep (kernels/obstacles/contact.h); null: nobody asks.
     Buffer<float4>* pressing() { return pressing_.get(); }
 
-    /// Solids on convex obstacles, in scenes with contact; null: none.
+    /// Solids on convex obstacles; null: none, or xpbd.
     RestingBodies* resting() { return touching_ ? touching_->resting() : nullptr; }
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
@@ -74,11 +74,11 @@ private:
     Buffer<float4>& targets_;
     Buffer<float4>* positions_ = nullptr;
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
-    std::unique_ptr<TouchingBodies> touching_;  ///< null: no free bodies, or no contacts
-    std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or contacts
+    std::unique_ptr<TouchingBodies> touching_;  ///< null: nothing may touch a free body
+    std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or those
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
     std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: none of bodies
-    std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no body is turned while it is pushed
+    std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no solids that obstacles push
     TaskBody sums_;                             ///< empty: no free bodies
 };
 

@@ -27,7 +27,6 @@ void DescentSubstep::lead_tied_parts() { ties_ = TiedParts::of(model_, targets_,
 void DescentSubstep::lead_bodies() {
     lead_ = {"lead", next_kind(), {}};
     momentum_.add_lead(lead_.launches);
-    if (!lead_.launches.empty()) contact_->add_start_snapshots(lead_.launches, *model_.positions);
 }
 
 void DescentSubstep::add_lead(Step& step, const std::vector<Region>& regions) {
@@ -36,7 +35,6 @@ void DescentSubstep::add_lead(Step& step, const std::vector<Region>& regions) {
     for (const Region& region : regions) {
         auto task = step.add(lead_, 0, region.strips(), region.id);
         momentum_.add_lead_accesses(task, region.strips());
-        contact_->add_start_snapshot_accesses(task, region.strips());
     }
 }
 
@@ -53,12 +51,10 @@ void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, b
 void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& derivatives,
                                        std::vector<Phase> phases, Buffer<float4>& positions,
                                        bool keeps_blocks) {
-    Buffer<float4>* starts = momentum_.starts();
-    if (starts == nullptr || !momentum_.bodies()->has_solids()) return;
+    if (momentum_.resting() == nullptr) return;
     const Reactions::Setting setting{
-        positions,    targets_,       *starts,
-        items,        derivatives,    std::move(phases),
-        keeps_blocks, contact_.get(), momentum_.resting() ? momentum_.pressing() : nullptr};
+        positions,   targets_,          *momentum_.starts(), *momentum_.pressing(), items,
+        derivatives, std::move(phases), keeps_blocks,        contact_.get()};
     reactions_ = std::make_unique<Reactions>(model_, *momentum_.bodies(), setting, next_kind());
 }
 
@@ -107,8 +103,8 @@ std::vector<BufferStorage*> DescentSubstep::state() {
 }
 
 std::vector<RowTable*> DescentSubstep::tables() {
-    if (!contact_) return {};
-    auto tables = contact_->tables();
+    std::vector<RowTable*> tables;
+    if (contact_) tables = contact_->tables();
     std::ranges::copy(momentum_.tables(), std::back_inserter(tables));
     return tables;
 }

@@ -6,7 +6,7 @@ namespace weft {
 
 LoneBodies::LoneBodies(FreeBodies& bodies)
     : bodies_(bodies),
-      sums_(bodies, PushedSolids::kTurned),
+      sums_(bodies),
       motions_("free.motions", 3 * static_cast<std::size_t>(bodies.run_count() + 1)) {}
 
 std::vector<Launch> LoneBodies::move(Model& model, Buffer<float4>& deviations) {

@@ -19,7 +19,6 @@ Reactions::Reactions(Model& model, const FreeBodies& bodies, const Setting& sett
         std::fill(borne_.data() + run.begin, borne_.data() + run.end, 1.0f);
     }
     Buffer<float>& sums = setting_.derivatives.sums();
-    Buffer<float4>& pressing = setting_.pressing ? *setting_.pressing : setting_.starts;
     for (const Phase phase : setting_.phases) {
         auto& launches = body(phase).launches;
         launches = setting_.derivatives.gather_gradients(phase, setting_.positions);
@@ -29,8 +28,8 @@ Reactions::Reactions(Model& model, const FreeBodies& bodies, const Setting& sett
         }
         launches.push_back(launch(kernels::lead_by_reactions, setting_.items.segments(phase),
                                   setting_.positions, setting_.starts, setting_.targets, borne_,
-                                  setting_.items.vertices(), sums, pressing,
-                                  setting_.pressing ? 1 : 0, setting_.items.count(),
+                                  setting_.items.vertices(), sums, setting_.pressing,
+                                  setting_.items.count(),
                                   static_cast<float>(1.0 / (model.h * model.h))));
     }
 }
@@ -63,8 +62,9 @@ void Reactions::add_part(Step& step, const TaskBody& body, StripRange strips, Re
     const int last = model_.vertices().item(touched.end);
     const auto [halo_begin, halo_end] = halo_.around(first, last);
     auto task = step.add(body, iteration, strips, region);
-    if (setting_.pressing) task.reads(*setting_.pressing, first, last);
-    task.reads(setting_.starts, first, last).updates(setting_.targets, first, last);
+    task.reads(setting_.starts, first, last)
+        .reads(setting_.pressing, first, last)
+        .updates(setting_.targets, first, last);
     if (setting_.keeps_blocks) {
         setting_.derivatives.add_hessian_accesses(task, first, last, setting_.contact != nullptr);
     }

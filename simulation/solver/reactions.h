@@ -24,12 +24,12 @@ public:
         Buffer<float4>& positions;  ///< those after the last iteration
         Buffer<float4>& targets;    ///< [vertices] x~
         Buffer<float4>& starts;     ///< [vertices] x~ before obstacles have pushed
+        Buffer<float4>& pressing;   ///< [vertices] see kernels/obstacles/contact.h
         VertexItems& items;
         VertexDerivatives& derivatives;  ///< of these; their gradients are overwritten
         std::vector<Phase> phases;       ///< that have items
         bool keeps_blocks;               ///< whether their Hessian blocks outlive tasks
         ContactResponse* contact;        ///< null: none
-        Buffer<float4>* pressing;        ///< null: what is held aside is asked for, too
     };
     /// bodies: of which solids count. (Piles of cloth would be thrown: what presses the lowest one
     /// of them in a few iterations is many times what lies on it.)

@@ -4,6 +4,8 @@
 
 #include "kernels/contact/resting.h"
 #include "simulation/contact/stiffness.h"
+#include "simulation/families/convert.h"
+#include "simulation/model/contact_thickness.h"
 
 namespace weft {
 
@@ -12,6 +14,16 @@ namespace {
 /// k of a vertex has at least so many m / h^2. Many make rounds slow to settle, and few let a solid
 /// sink, until the iterations push it out again.
 constexpr double kHardness = 100.0;
+
+/// What is farther from obstacles than surfaces that touch each other would be is not near [m].
+double reach_of_obstacles(const Model& model) {
+    if (model.scene.contact) return model.scene.contact->thickness;
+    std::vector<Vec3> rest;
+    for (const int vertex : model.strips.rank) {
+        rest.push_back(to_vec3((*model.positions)[static_cast<std::size_t>(vertex)]));
+    }
+    return good_thickness(model.triangles, rest);
+}
 
 }  // namespace
 
@@ -24,7 +36,7 @@ std::unique_ptr<RestingBodies> RestingBodies::of(Model& model, const FreeBodies&
 RestingBodies::RestingBodies(Model& model, const FreeBodies& bodies, double creep)
     : model_(model),
       creep_(static_cast<float>(creep)),
-      reach_(static_cast<float>(model.scene.contact->thickness)),
+      reach_(static_cast<float>(reach_of_obstacles(model))),
       solid_("resting.solid", model.positions->count()),
       hardness_("resting.hardness", model.positions->count()),
       targets_("resting.targets", model.positions->count()),

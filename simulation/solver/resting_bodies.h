@@ -6,12 +6,18 @@
 #include "simulation/contact/body_pushes.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/free_bodies.h"
-#include "simulation/solver/moment_sums.h"
 
 namespace weft {
 
-/// Free solids on convex obstacles, in scenes with contact: to the rounds that move bodies as
-/// wholes, obstacles are contacts like any other (kernels/contact/resting.h).
+/// What obstacles do to vertices in a substep, as far as bodies go by it.
+struct ObstaclePushes {
+    Buffer<float4>* starts = nullptr;    ///< [vertices] x~ before; null: there are no obstacles
+    Buffer<float4>* pressing = nullptr;  ///< [vertices] (kernels/obstacles/contact.h); null: no
+                                         ///< solid rests
+};
+
+/// Free solids on convex obstacles: to the rounds that move bodies as wholes, obstacles are
+/// contacts like any other (kernels/contact/resting.h).
 class RestingBodies {
 public:
     /// Null: there are no convex obstacles, or no solids. creep: of what sticks, per substep [m].
@@ -19,12 +25,9 @@ public:
     static std::unique_ptr<RestingBodies> of(Model& model, const FreeBodies& bodies, double creep);
     RestingBodies(Model& model, const FreeBodies& bodies, double creep);
 
-    /// x~ as rounds see it: [vertices]
+    /// x~ as rounds see it, and before pushes: [vertices] as see() makes them.
     Buffer<float4>& targets() { return targets_; }
-    /// What see() makes of what obstacles push.
-    ObstaclePushes pushes(const ObstaclePushes& obstacles) {
-        return {&starts_, obstacles.pressing};
-    }
+    Buffer<float4>& starts() { return starts_; }
     Launch see(Buffer<float4>& targets, const ObstaclePushes& obstacles);
     /// Behind the contacts of `pushes`. starts: x~ before obstacles push
     Launch collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,

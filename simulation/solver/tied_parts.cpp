@@ -71,7 +71,6 @@ TiedParts::TiedParts(Model& model, const Layout& layout, Buffer<float4>& targets
       end_parts_("ties.end_parts", ends_.count()),
       springs_("ties.springs", 4 * layout.ties.entries.size()),
       origins_("ties.origins", at(kColumns * part_count_)),
-      firm_("ties.firm", origins_.count()),
       first_("ties.first", at(part_count_)),
       sum_starts_("ties.sum_starts", at(kMoments * part_count_)),
       sum_places_("ties.sum_places", sum_starts_.count()),
@@ -150,8 +149,7 @@ std::vector<Launch> TiedParts::launches(int rounds) {
     const int columns = kColumns * part_count_;
     std::vector<Launch> list{
         launch(kernels::add_moments, each_column_.segments(), *model_.positions, targets_, targets_,
-               targets_, targets_, members_, shares_, member_rows_, origins_, firm_, partials_, 0,
-               columns),
+               targets_, members_, shares_, member_rows_, origins_, partials_, 0, columns),
         launch(kernels::add_columns, each_sum_.segments(), partials_, sum_starts_, sum_places_,
                sums_),
         launch(kernels::start_parts, each_part_.segments(), sums_, first_, motions_, part_count_)};

@@ -60,7 +60,6 @@ private:
     Buffer<int> tie_rows_, ends_, end_parts_;
     Buffer<float> springs_;
     Buffer<int> origins_;
-    Buffer<float> firm_;
     Buffer<int> first_, sum_starts_, sum_places_;
     Buffer<float> still_;  ///< [substeps] a clock for those that do not change
     Buffer<float4> partials_, sums_, pulls_, motions_;

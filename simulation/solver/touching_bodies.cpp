@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "kernels/contact/groups.h"
 #include "kernels/contact/strains.h"
@@ -36,17 +38,33 @@ std::vector<std::vector<int>> parts_of(const Model& model, const FreeBodies& bod
     return parts;
 }
 
+std::optional<ContactRows> rows_of(ContactResponse* contact) {
+    if (contact == nullptr) return std::nullopt;
+    return contact->rows();
+}
+
 }  // namespace
 
-TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
-                               Buffer<float>* multipliers, int first_kind)
+std::unique_ptr<TouchingBodies> TouchingBodies::of(Model& model, FreeBodies& bodies,
+                                                   ContactResponse* contact,
+                                                   Buffer<float>* multipliers, int first_kind) {
+    std::unique_ptr<RestingBodies> resting;
+    if (!multipliers) resting = RestingBodies::of(model, bodies, rubbing_of(model).creep);
+    if (!contact && !resting) return nullptr;
+    return std::unique_ptr<TouchingBodies>(
+        new TouchingBodies(model, bodies, contact, std::move(resting), multipliers, first_kind));
+}
+
+TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
+                               std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers,
+                               int first_kind)
     : model_(model),
       bodies_(bodies),
-      resting_(multipliers ? nullptr : RestingBodies::of(model, bodies, contact.rubbing().creep)),
-      is_rubbed_(contact.rubbing().friction > 0 || (resting_ && model.obstacles->have_friction())),
+      resting_(std::move(resting)),
+      is_rubbed_(rubbing_of(model).friction > 0 || (resting_ && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
-      pushes_(contact.rows(), bodies.columns(), contact.rubbing(), multipliers, model.h),
-      groups_(contact.motion().group(parts_of(model, bodies))),
+      pushes_(rows_of(contact), bodies.columns(), rubbing_of(model), multipliers, model.h),
+      groups_(contact ? &contact->motion().group(parts_of(model, bodies)) : nullptr),
       lag_count_(bodies.run_count() + bodies.most_runs()),
       partials_("touching.partials", at(parts_ * bodies.column_count())),
       lags_("touching.lags", at(parts_ * lag_count_)),
@@ -60,9 +78,8 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       motions_("touching.motions", 2 * (first_run_.count() + 1)),
       strains_("touching.strains", motions_.count()),
       bearings_("touching.bearings", WEFT_BEARING_PARTS * (first_run_.count() + 1)),
-      slides_("touching.slides", motions_.count() / 2),
-      are_led_("touching.are_led", slides_.count()),
-      moments_(bodies, PushedSolids::kShifted, first_run_, counts_),
+      are_led_("touching.are_led", motions_.count() / 2),
+      moments_(bodies, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
@@ -94,14 +111,18 @@ void TouchingBodies::number_bodies(const Model& model) {
 }
 
 std::vector<Launch> TouchingBodies::solve(int has_moved, int level) {
-    return {
-        launch(kernels::solve_bodies, all(), lags_, first_run_, counts_, masses_,
-               moments_.moments(), motions_, strains_, rests_, bearings_, slides_, has_moved,
-               is_rubbed_, bodies_.most_runs(), lag_count_, body_count()),
-        launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_, groups_.firsts,
-               groups_.counts, groups_.members, group_motions_, level, body_count(), kInstance),
-        launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_, moments_.moments(),
-               group_motions_, groups_.leaders, is_rubbed_, level, body_count(), kInstance)};
+    std::vector<Launch> launches{launch(kernels::solve_bodies, all(), lags_, first_run_, counts_,
+                                        masses_, moments_.moments(), motions_, strains_, rests_,
+                                        bearings_, has_moved, is_rubbed_, groups_ ? 1 : 0,
+                                        bodies_.most_runs(), lag_count_, body_count())};
+    if (!groups_) return launches;
+    launches.push_back(launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_,
+                              groups_->firsts, groups_->counts, groups_->members, group_motions_,
+                              level, body_count(), kInstance));
+    launches.push_back(launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_,
+                              moments_.moments(), group_motions_, groups_->leaders, is_rubbed_,
+                              level, body_count(), kInstance));
+    return launches;
 }
 
 Launch TouchingBodies::solve_strains() {
@@ -139,8 +160,8 @@ std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
     std::vector<Launch> launches;
     if (resting_) launches.push_back(resting_->see(*targets_, obstacles_));
     Buffer<float4>& targets = resting_ ? resting_->targets() : *targets_;
-    const ObstaclePushes pushes = resting_ ? resting_->pushes(obstacles_) : obstacles_;
-    std::ranges::move(moments_.sums().sum(model_, positions, targets, pushes),
+    Buffer<float4>* starts = resting_ ? &resting_->starts() : obstacles_.starts;
+    std::ranges::move(moments_.sums().sum(model_, positions, targets, starts),
                       std::back_inserter(launches));
     if (solids_)
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
@@ -230,7 +251,6 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
     for (Buffer<float4>* written : {&motions_, &strains_, &rests_, &group_motions_, &bearings_}) {
         task.updates(*written, 0, static_cast<int>(written->count()));
     }
-    task.updates(slides_, 0, static_cast<int>(slides_.count()));
 }
 
 /// Only solids start from what has held them up as wholes: what bears a sheet is not alike all
@@ -246,8 +266,8 @@ Launch TouchingBodies::lead() {
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
-                  *model.velocities, motions_, strains_, moments_.moments(), slides_, are_led_,
-                  body_of_, static_cast<float>(1.0 / model.h), body_count());
+                  *model.velocities, motions_, strains_, moments_.moments(), are_led_, body_of_,
+                  static_cast<float>(1.0 / model.h), body_count());
 }
 
 /// What tells where bodies have got to.
@@ -255,7 +275,6 @@ void TouchingBodies::add_motion_accesses(Step::Adding& task) {
     moments_.add_reads(task);
     task.reads(motions_, 0, static_cast<int>(motions_.count()));
     task.reads(strains_, 0, static_cast<int>(strains_.count()));
-    task.reads(slides_, 0, static_cast<int>(slides_.count()));
 }
 
 }  // namespace weft

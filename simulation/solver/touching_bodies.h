@@ -14,15 +14,18 @@
 
 namespace weft {
 
-/// Free bodies in scenes with contact: they move as wholes as far as their contacts let them
-/// (kernels/contact/bodies.h). Their moments are added up and what pushes them is collected; then
-/// there are sums as FreeBodies', and a task of one device that makes steps of them, in turns.
+/// Free bodies in scenes with contact, or with solids that may lie on convex obstacles: they move
+/// as wholes as far as what touches them lets them (kernels/contact/bodies.h). Their moments are
+/// added up and what pushes them is collected; then there are sums as FreeBodies', and a task of
+/// one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
-    /// multipliers: as BodyPushes'; with them, as xpbd has, what obstacles push is not turned.
-    /// first_kind: of the tasks. All others must outlive this.
-    TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse& contact,
-                   Buffer<float>* multipliers, int first_kind);
+    /// Null: nothing may touch a free body.
+    /// contact: null: none. multipliers: as BodyPushes'; xpbd has them, which lets its solids turn
+    /// out of obstacles by themselves. first_kind: of the tasks. All others must outlive this.
+    static std::unique_ptr<TouchingBodies> of(Model& model, FreeBodies& bodies,
+                                              ContactResponse* contact, Buffer<float>* multipliers,
+                                              int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
@@ -52,6 +55,9 @@ public:
     RestingBodies* resting() { return resting_.get(); }
 
 private:
+    TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
+                   std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers,
+                   int first_kind);
     std::vector<Launch> collect(Buffer<float4>& positions);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();
@@ -64,7 +70,7 @@ private:
     void number_bodies(const Model& model);
     Segments all() const { return {&begin_, 0, 1, model_.strips.count()}; }
     std::vector<Launch> solve(int has_moved, int level);
-    int body_count() const { return groups_.body_count(); }
+    int body_count() const { return bodies_.body_count(); }
 
     Model& model_;
     FreeBodies& bodies_;
@@ -72,7 +78,7 @@ private:
     int is_rubbed_;                           ///< 1 with friction
     int parts_;                               ///< that are summed up
     BodyPushes pushes_;
-    BodyGroups& groups_;
+    BodyGroups* groups_;  ///< null: bodies do not touch each other
     int lag_count_;
     // See the kernels.
     Buffer<float4> partials_;       ///< [parts * columns]
@@ -87,7 +93,6 @@ private:
     Buffer<float4> motions_;        ///< [2 * (bodies + 1)]
     Buffer<float4> strains_;        ///< [2 * (bodies + 1)]
     Buffer<float4> bearings_;       ///< [4 * (bodies + 1)]
-    Buffer<float> slides_;          ///< [bodies + 1]
     Buffer<float> are_led_;         ///< [bodies + 1]
     BodyMoments moments_;
     Buffer<int> begin_;                    ///< [strips + 1] all bodies are items of strip 0

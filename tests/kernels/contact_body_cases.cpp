@@ -2,7 +2,6 @@
 #include "kernels/contact/pushes.h"
 #include "kernels/contact/strains.h"
 #include "tests/kernels/contact_response_parts.h"
-#include "tests/kernels/held_point.h"
 
 namespace weft::test {
 namespace {
@@ -77,20 +76,29 @@ void collect_case(KernelCase& c) {
         c.flavour == Flavour::kRandom ? 0.3f : 0.0f, c.random.integer(0, 1), 1e4f, kInstance);
 }
 
+void collect_none_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    Columns columns(c);
+    auto& counts = c.add<int>("push_counts", c.items);
+    auto& needs = c.add<int>("push_needs", c.items);
+    for (int& need : needs.span()) need = c.random.integer(0, 9);
+    auto& standing = c.add<float4>("standing", c.items);
+    c.launch = launch(kernels::collect_no_pushes, c.segments, positions, targets, columns.members,
+                      columns.shares, columns.rows, counts, needs, standing, kInstance);
+}
+
 void moments_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& targets = add_points(c, "targets", c.items);
     auto& previous = add_points(c, "previous", c.items);
     auto& starts = add_points(c, "starts", c.items);
-    auto& pressing = add_points(c, "pressing", c.items);
     Columns columns(c);
     auto& origins = add_indices(c, "origins", c.items, c.items);
-    auto& firm = c.add<float>("firm", c.items);
-    for (float& is_firm : firm.span()) is_firm = static_cast<float>(c.random.integer(0, 1));
     auto& partials = c.add<float4>("partials", WEFT_MOMENT_PARTS * c.items);
     c.launch = launch(kernels::add_moments, c.segments, positions, targets, previous, starts,
-                      pressing, columns.members, columns.shares, columns.rows, origins, firm,
-                      partials, c.random.integer(0, 1), c.items);
+                      columns.members, columns.shares, columns.rows, origins, partials,
+                      c.random.integer(0, 1), c.items);
 }
 
 /// The runs of bodies.
@@ -126,7 +134,6 @@ Buffer<float4>& add_moments(KernelCase& c, int bodies) {
         moments[at(b)].w = spread();
         moments[at(rows + b)] = {0.0f, 0.0f, spread(), 0.0f};
         moments[at(2 * rows + b)] = {0.0f, 0.0f, 0.0f, spread()};
-        hold_a_point(c, moments.data() + b, rows);
     }
     return moments;
 }
@@ -186,10 +193,10 @@ void bodies_case(KernelCase& c) {
     auto& strains = add_points(c, "strains", 2 * (c.items + 1));
     auto& rests = c.add<float4>("rests", 7 * c.items);
     auto& bearings = add_points(c, "bearings", WEFT_BEARING_PARTS * (c.items + 1));
-    auto& slides = add_flags(c, "slides", c.items + 1);
-    c.launch = launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses,
-                      moments, motions, strains, rests, bearings, slides, c.random.integer(0, 1),
-                      c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
+    c.launch =
+        launch(kernels::solve_bodies, c.segments, lags, runs.first, runs.counts, masses, moments,
+               motions, strains, rests, bearings, c.random.integer(0, 1), c.random.integer(0, 1),
+               c.random.integer(0, 1), Runs::kMost, lag_count, c.items);
 }
 
 void strains_case(KernelCase& c) {
@@ -272,10 +279,9 @@ void move_case(KernelCase& c) {
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
-    auto& slides = add_flags(c, "slides", kBodies + 1);
     auto& are_led = add_flags(c, "are_led", kBodies + 1);
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      strains, moments, slides, are_led, bodies, 240.0f, kBodies);
+                      strains, moments, are_led, bodies, 240.0f, kBodies);
 }
 
 void lead_case(KernelCase& c) {
@@ -288,13 +294,13 @@ void lead_case(KernelCase& c) {
                       bodies, kBodies);
 }
 
-const bool added = add_case("collect_pushes", collect_case) &&
-                   add_case("add_pushed_lags", lags_case) &&
-                   add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
-                   add_case("add_groups", add_groups_case) &&
-                   add_case("add_moments", moments_case) && add_case("weigh_bodies", weigh_case) &&
-                   add_case("move_bodies", move_case) && add_case("lead_bodies", lead_case) &&
-                   add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
+const bool added =
+    add_case("collect_pushes", collect_case) && add_case("collect_no_pushes", collect_none_case) &&
+    add_case("add_pushed_lags", lags_case) && add_case("solve_bodies", bodies_case) &&
+    add_case("solve_groups", groups_case) && add_case("add_groups", add_groups_case) &&
+    add_case("add_moments", moments_case) && add_case("weigh_bodies", weigh_case) &&
+    add_case("move_bodies", move_case) && add_case("lead_bodies", lead_case) &&
+    add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
 
 }  // namespace
 }  // namespace weft::test

@@ -251,7 +251,7 @@ void reactions_case(KernelCase& c) {
     auto& pressing = c.add<float4>("pressing", 2 * c.items);
     for (float4& p : pressing.span()) p = c.random.point(0.1f);
     c.launch = launch(kernels::lead_by_reactions, c.segments, positions, starts, targets, borne,
-                      vertices, sums, pressing, c.random.integer(0, 1), c.items, 1e4f);
+                      vertices, sums, pressing, c.items, 1e4f);
 }
 
 const bool added =

@@ -1,6 +1,5 @@
 #include "kernels/bodies/free_bodies.h"
 #include "kernels/bodies/ties.h"
-#include "tests/kernels/held_point.h"
 #include "tests/kernels/kernel_case.h"
 
 namespace weft::test {
@@ -45,8 +44,6 @@ Buffer<float4>& add_sums(KernelCase& c, int runs) {
         parts[0].w = spread();
         parts[1].z = spread();
         parts[2].w = spread();
-        hold_a_point(c, parts, 1);
-        if (is_point) parts[8] = parts[9] = parts[10] = {};
         if (!is_point) parts[1].x = parts[1].y = parts[1].w = c.random.real(-1.0f, 1.0f);
     }
     return sums;

@@ -22,7 +22,7 @@ struct OneBody {
         strains{"strains", 4}, bearings{"bearings", 2 * WEFT_BEARING_PARTS},
         moments{"moments", 2 * WEFT_MOMENT_PARTS};
     Buffer<int> first{"first_run", 1};
-    Buffer<float> counts{"counts", 1}, masses{"masses", 1}, slides{"slides", 2};
+    Buffer<float> counts{"counts", 1}, masses{"masses", 1};
 
     OneBody() { counts[0] = masses[0] = 1.0f; }
 
@@ -31,7 +31,7 @@ struct OneBody {
     void solve(int has_moved) {
         const Launch launched =
             launch(kernels::solve_bodies, Segments{}, lags, first, counts, masses, moments, motions,
-                   strains, rests, bearings, slides, has_moved, 0, 1, 2, 1);
+                   strains, rests, bearings, has_moved, 0, 1, 1, 2, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
     }
 };
@@ -159,33 +159,6 @@ TEST(BodiesAsWholes, ABodyThatTouchesNothingTakesTheStepOfOneAlone) {
         EXPECT_EQ(body.motions[2].x, alone.turn.x);
         EXPECT_EQ(body.motions[2].y, alone.turn.y);
         EXPECT_EQ(body.motions[2].z, alone.turn.z);
-    }
-}
-
-/// Rounds do not take back what leads it round what is held.
-TEST(BodiesAsWholes, NorDoesOneThatFrictionHoldsInPart) {
-    OneBody body;
-    body.part(5) = {0.004f, 0.002f, -0.001f, 0.0f};
-    body.moments[0].w = body.moments[2].z = body.moments[4].w = 0.01f;
-    body.moments[6] = {0.0f, 1e-4f, 0.0f, 0.004f};
-    body.moments[8] = {0.0f, 0.0f, 3e-4f, 0.002f};
-    body.moments[10].w = -0.001f;
-    body.moments[12] = {0.0f, 1e-3f, 2e-4f, 0.0f};
-    body.moments[14].w = 1e-3f;  // Pushed as far as it has got to.
-    body.moments[16] = {0.02f, -0.01f, 0.004f, 0.2f};
-    body.moments[18] = {2e-3f, -1e-3f, 4e-4f, 0.0f};
-    body.moments[20] = {5e-4f, -2e-4f, 8e-5f, 0.0f};
-    const body_motion alone = motion_alone(body);
-    ASSERT_GT(length3(alone.turn), 1e-3f);
-    for (int round = 0; round < 3; ++round) {
-        body.solve(round == 0 ? 0 : 1);
-        const body_motion found = gather_motion(body.motions.data(), 2, 0);
-        EXPECT_EQ(found.shift.x, alone.shift.x);
-        EXPECT_EQ(found.shift.y, alone.shift.y);
-        EXPECT_EQ(found.shift.z, alone.shift.z);
-        EXPECT_EQ(found.turn.x, alone.turn.x);
-        EXPECT_EQ(found.turn.y, alone.turn.y);
-        EXPECT_EQ(found.turn.z, alone.turn.z);
     }
 }
 
