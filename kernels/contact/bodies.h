@@ -143,8 +143,8 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                    WEFT_GLOBAL const float4* slips, WEFT_GLOBAL const float4* forces,
                    WEFT_GLOBAL const float4* points, WEFT_GLOBAL const float4* other_points,
                    WEFT_GLOBAL float* presses, WEFT_GLOBAL float4* partials, float friction,
-                   float creep, float h2, int is_rubbed, int has_moved, int is_strain, int level,
-                   int column_count, int body_count) {
+                   float creep, float h2, int is_rubbed, int has_moved, int is_strained,
+                   int is_strain, int level, int column_count, int body_count) {
     const real zero = splat(0.0f);
     const real3 no_way = no_motion().shift;
     const real one = splat(1.0f);
@@ -214,9 +214,10 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
             push = add_rubbing(push, c, pull, no_way);
             if (!is_strain) {
                 const real now = rests ? press_of_resting(c, other_point.w) : press_of_gap(c);
-                // Before they are led, how far solids are in obstacles does not say.
+                // Before they are led, how far solids are in obstacles does not say; nor does it
+                // where a strain has just pressed some corners and lifted others.
                 real mean = splat(0.5f) * (press + now);
-                if (!has_moved) mean = rests ? press : mean;
+                if (!has_moved || is_strained) mean = rests ? press : mean;
                 bearing said =
                     bearing_at(c, mean, pressed, told.part, pull, has_moved ? one : zero, yielding);
                 const real known = rests ? other_point.w * yielding : zero;

@@ -76,8 +76,8 @@ Launch BodyPushes::add(Buffer<int>& column_bodies, Buffer<float>& masses, Buffer
     return launch(kernels::add_pushed_lags, columns_.by_strip, standing_, column_bodies, masses,
                   moments, motions, strains, bearings, table_.rows(), table_.counts(), codes_,
                   sides_, slips_, forces_, points_, other_points_, presses_, partials, friction_,
-                  creep_, h2_, round.is_rubbed, round.has_moved, round.is_strain, round.level,
-                  columns_.count, body_count);
+                  creep_, h2_, round.is_rubbed, round.has_moved, round.is_strained, round.is_strain,
+                  round.level, columns_.count, body_count);
 }
 
 void BodyPushes::add_sum_accesses(Step::Adding& task, const Region& region) {

@@ -42,7 +42,7 @@ public:
 
     /// The parameters of a round, as the kernel's.
     struct Round {
-        int is_rubbed = 0, has_moved = 0, is_strain = 0, level = 0;
+        int is_rubbed = 0, has_moved = 0, is_strained = 0, is_strain = 0, level = 0;
     };
     /// Adds up how far bodies lag behind, and how they are pushed (kernels/contact/bodies.h).
     /// All parameters as the kernel's.

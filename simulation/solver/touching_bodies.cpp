@@ -134,7 +134,7 @@ Launch TouchingBodies::solve_strains() {
 
 std::vector<const TaskBody*> TouchingBodies::bodies() const {
     std::vector<const TaskBody*> list{&collect_, &weigh_, &steps_};
-    for (const auto* bodies : {&sums_again_, &steps_again_}) {
+    for (const auto* bodies : {&sums_again_, &strained_sums_, &steps_again_}) {
         for (const TaskBody& body : *bodies) list.push_back(&body);
     }
     if (!first_collect_.launches.empty()) list.push_back(&first_collect_);
@@ -148,8 +148,10 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
     obstacles_ = obstacles;
     collect_.launches = collect(positions);
     for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
-        sums_again_[at(level)] = {
-            "momentum", kind, sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .level = level})};
+        BodyPushes::Round round{.is_rubbed = is_rubbed_, .has_moved = 1, .level = level};
+        sums_again_[at(level)] = {"momentum", kind, sum_round(round)};
+        round.is_strained = 1;
+        strained_sums_[at(level)] = {"momentum", kind, sum_round(round)};
     }
     strain_sums_ = {"momentum", kind,
                     sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .is_strain = 1})};
@@ -206,7 +208,9 @@ void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskB
     for (int round = 0; round < kRounds; ++round) {
         // The last round is of whole groups, as only these leave what they have in common exact.
         const std::size_t level = at((kRounds - 1 - round) % WEFT_GROUP_LEVELS);
-        const TaskBody& sums = round == 0 ? body : sums_again_[level];
+        const bool is_strained = solids_ && round % kStrainEvery == 1;
+        const TaskBody& again = is_strained ? strained_sums_[level] : sums_again_[level];
+        const TaskBody& sums = round == 0 ? body : again;
         for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
         add_steps(step, round == 0 ? steps_ : steps_again_[level], iteration);
         if (!solids_ || round % kStrainEvery != 0) continue;

@@ -101,8 +101,8 @@ private:
     ObstaclePushes obstacles_;
     TaskBody first_collect_, collect_, weigh_, steps_;
     TaskBody strain_sums_, strain_steps_;
-    /// Of the rounds behind the first one, by levels of groups.
-    std::array<TaskBody, WEFT_GROUP_LEVELS> sums_again_, steps_again_;
+    /// Of the rounds behind the first one, by levels of groups; sums behind strains are others.
+    std::array<TaskBody, WEFT_GROUP_LEVELS> sums_again_, strained_sums_, steps_again_;
 };
 
 }  // namespace weft

@@ -148,12 +148,13 @@ void lags_case(KernelCase& c) {
     auto& bearings = add_points(c, "bearings", WEFT_BEARING_PARTS * (kBodies + 1));
     Pushes pushes(c);
     auto& partials = c.add<float4>("partials", WEFT_RUBBED_BODY_PARTS * c.items);
-    c.launch = launch(
-        kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses, moments, motions,
-        strains, bearings, pushes.rows.rows, pushes.rows.counts, pushes.codes, pushes.sides,
-        pushes.slips, pushes.forces, pushes.points, pushes.other_points, pushes.presses, partials,
-        c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f, c.random.integer(0, 1),
-        c.random.integer(0, 1), c.random.integer(0, 1), random_level(c), c.items, kBodies);
+    c.launch =
+        launch(kernels::add_pushed_lags, c.segments, pushes.standing, bodies, masses, moments,
+               motions, strains, bearings, pushes.rows.rows, pushes.rows.counts, pushes.codes,
+               pushes.sides, pushes.slips, pushes.forces, pushes.points, pushes.other_points,
+               pushes.presses, partials, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, 0.02f, 1e-4f,
+               c.random.integer(0, 1), c.random.integer(0, 1), c.random.integer(0, 1),
+               c.random.integer(0, 1), random_level(c), c.items, kBodies);
 }
 
 /// Forms of motions of so many: semi-definite, five rows of each; some are zero.

@@ -61,7 +61,7 @@ TEST(BodiesAsWholes, NorDoTheSumsOfTheFirstRound) {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
                    strains, bearings, rows, counts, codes, entries, entries, entries, entries,
-                   entries, presses, partials, 0.0f, 1.0f, 1e-4f, 0, has_moved, 0, 0, 1, 1);
+                   entries, presses, partials, 0.0f, 1.0f, 1e-4f, 0, has_moved, 0, 0, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5].x;
     };
@@ -96,7 +96,7 @@ struct OneContact {
         const Launch launched =
             launch(kernels::add_pushed_lags, Segments{}, standing, bodies, masses, moments, motions,
                    strains, bearings, rows, counts, codes, sides, slips, forces, points, others,
-                   presses, partials, kFriction, 1e-3f, kYielding, 1, has_moved, 0, 0, 1, 1);
+                   presses, partials, kFriction, 1e-3f, kYielding, 1, has_moved, 0, 0, 0, 1, 1);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
         return partials[5];
     }
