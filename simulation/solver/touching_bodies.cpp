@@ -13,6 +13,8 @@ namespace weft {
 namespace {
 
 constexpr int kRounds = 12;
+/// Before the first iteration, where bodies touch obstacles alone: 12 do no better, and 3 worse.
+constexpr int kFirstRoundsAlone = 6;
 constexpr int kStrainEvery = 3;  ///< rounds, from the first one on
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -183,18 +185,20 @@ std::vector<Launch> TouchingBodies::sum_round(const BodyPushes::Round& round) {
 
 void TouchingBodies::add_first_rounds(Step& step, const TaskBody& body,
                                       const std::vector<Region>& regions) {
-    add_all(step, first_collect_, body, regions, *model_.positions, 0);
+    const int rounds = groups_ ? kRounds : kFirstRoundsAlone;
+    add_all(step, first_collect_, body, regions, *model_.positions, {rounds, 0});
 }
 
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
                                 const std::vector<Region>& regions, Buffer<float4>& positions,
                                 int iteration) {
-    add_all(step, collect_, body, regions, positions, iteration);
+    add_all(step, collect_, body, regions, positions, {kRounds, iteration});
 }
 
 void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskBody& body,
                              const std::vector<Region>& regions, Buffer<float4>& positions,
-                             int iteration) {
+                             Rounds rounds) {
+    const auto [count, iteration] = rounds;
     const auto for_each = [&](auto add) {
         for (const Region& region : regions) {
             if (bodies_.reach_into(region.begin, region.end)) add(region);
@@ -205,9 +209,9 @@ void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskB
     });
     auto weighing = step.add(weigh_, iteration, {0, 1});
     moments_.add_weigh_accesses(weighing);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < count; ++round) {
         // The last round is of whole groups, as only these leave what they have in common exact.
-        const std::size_t level = at((kRounds - 1 - round) % WEFT_GROUP_LEVELS);
+        const std::size_t level = at((count - 1 - round) % WEFT_GROUP_LEVELS);
         const bool is_strained = solids_ && round % kStrainEvery == 1;
         const TaskBody& again = is_strained ? strained_sums_[level] : sums_again_[level];
         const TaskBody& sums = round == 0 ? body : again;

@@ -63,8 +63,11 @@ private:
     Launch solve_strains();
     void add_collection(Step& step, const TaskBody& body, const Region& region,
                         Buffer<float4>& positions, int iteration);
+    struct Rounds {
+        int count, iteration;
+    };
     void add_all(Step& step, const TaskBody& collection, const TaskBody& body,
-                 const std::vector<Region>& regions, Buffer<float4>& positions, int iteration);
+                 const std::vector<Region>& regions, Buffer<float4>& positions, Rounds rounds);
     void add_sum(Step& step, const TaskBody& body, const Region& region, int iteration);
     void add_steps(Step& step, const TaskBody& body, int iteration);
     void number_bodies(const Model& model);

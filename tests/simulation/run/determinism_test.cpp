@@ -37,7 +37,7 @@ const TestScene kScenes[] = {
     {"VbdSpringsOnly", kSpringsOnly, Method::kVbd, "601b32f5ea67d031565e09100edd2e2b"},
     {"VbdWoven", kWoven, Method::kVbd, "d636f27ba0f14dcba17e327f1b7d8556"},
     {"VbdTouching", kTouching, Method::kVbd, "bd1991e670b1aba97fa2d849e1a12d2f"},
-    {"VbdLying", kLying, Method::kVbd, "80467057a45c6b8504f03e65f511eb86"},
+    {"VbdLying", kLying, Method::kVbd, "e406401bb05a8843bb49731c8a4b12bf"},
     {"VbdRubbing", kRubbing, Method::kVbd, "be3efb1427eaf1178a45bf776215fa76"},
     {"XpbdRubbing", kRubbing, Method::kXpbd, "83902fdfd1b9ee90c6e5ff8d910b416b"},
     {"XpbdSheets", kSheets, Method::kXpbd, "307f216486baea61c0f1ddc8f3bd3de1"},
