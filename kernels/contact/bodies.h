@@ -132,6 +132,7 @@ WEFT_INLINE body_sum add_strain_at(body_sum sum, derivatives push, real3 lever, 
 /// is_rubbed      1 with friction, of contacts or of obstacles
 /// has_moved      0 in the first round, where `motions` has those of another substep, which may
 ///                have ended badly: nothing reads them, nor `strains` and `bearings`
+/// is_strained    1 where strains have changed since the round before
 /// is_strain      1 where the sums are to be of what contacts do to strains, and of that alone
 /// level          of the groups whose step follows
 WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
