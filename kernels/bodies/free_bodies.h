@@ -11,11 +11,16 @@
 
 WEFT_KERNELS_BEGIN
 
+/// What is left of a shift that a spring of so many inertias holds.
+WEFT_INLINE real part_led(real hold) { return splat(1.0f) / (splat(1.0f) + hold); }
+
 /// How a body has to move that lacks so much where obstacles bear it, besides what its moments say
 /// of turns. The angle is the smaller the better its step is solved, and each round leaves of it
 /// about its square. What obstacles push is not turned: what hangs from what it drapes over would
 /// turn it.
-WEFT_INLINE body_motion missing_motion(moments m, borne_lag borne) {
+/// held  how hard obstacles hold what they have pushed, in units of its inertia: it stays where its
+///       own friction and the obstacle keep it, and its elements hold what goes on
+WEFT_INLINE body_motion missing_motion(moments m, borne_lag borne, float held) {
     const sym6 form = own_form_of(m);
     body_motion done = no_motion();
     for (int round = 0; round < 3; ++round) {
@@ -25,7 +30,8 @@ WEFT_INLINE body_motion missing_motion(moments m, borne_lag borne) {
         done.turn = bounded_turn(done.turn);
     }
     const real is_turned = m.pushed > splat(0.0f) ? splat(0.0f) : splat(1.0f);
-    return make_motion(done.shift, scale(done.turn, is_turned));
+    const real led = part_led(m.pushed * splat(held));
+    return make_motion(scale(done.shift, led), scale(done.turn, is_turned));
 }
 
 /// How far the body of each run has to go.
@@ -34,12 +40,13 @@ WEFT_INLINE body_motion missing_motion(moments m, borne_lag borne) {
 /// counts     [runs] of that body's runs
 /// motions    [3 * (runs + 1)] column-major, written: the shift [m], the turn, and the centre [m]
 /// most_runs  that a body has
+/// held       as in missing_motion
 WEFT_KERNEL(solve_runs, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* motions, int most_runs,
-            int run_count) {
+            int run_count, float held) {
     const moments m = sum_of_runs(sums, load_whole(first_run, i), load(counts, i), most_runs);
     const borne_lag borne = without_throw(m.lag, m, no_motion().shift);
-    store_motion(motions, run_count + 1, i, missing_motion(m, borne));
+    store_motion(motions, run_count + 1, i, missing_motion(m, borne, held));
     store4(motions, column(i, run_count + 1, 2), with_w(m.centre, splat(0.0f)));
 }
 

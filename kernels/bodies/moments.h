@@ -24,7 +24,7 @@ typedef struct {
     real3 torque;  ///< of r x push [m^2]
     real3 way;     ///< that it has gone in the substep [m]
     real lead;     ///< of push . way: of what has been pushed [m^2]
-    real pushed;   ///< above 0 where obstacles have pushed vertices [m]
+    real pushed;   ///< of what obstacles have pushed
 } moments;
 
 WEFT_INLINE moments no_moments(void) {
@@ -125,7 +125,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         one.offset = r;
         one.lag = lag;
         one.lags = outer_mat(r, lag);
-        one.pushed = target.w;
+        one.pushed = target.w > splat(0.0f) ? splat(1.0f) : splat(0.0f);
         if (has_pushes) {
             one.push = subtract(xyz(target), xyz(gather4(starts, v)));
             one.torque = cross3(r, one.push);

@@ -286,12 +286,13 @@ WEFT_INLINE void store_rest(WEFT_GLOBAL float4* rests, int rows, item i, sym6 fo
 /// has_moved  as in add_pushed_lags
 /// is_rubbed  1 with friction
 /// most_runs  that a body has; lag_count is that more than there are runs
+/// held       as in missing_motion
 WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* masses,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL float4* motions,
             WEFT_GLOBAL float4* strains, WEFT_GLOBAL float4* rests, WEFT_GLOBAL float4* bearings,
             int has_moved, int is_rubbed, int has_groups, int most_runs, int lag_count,
-            int body_count) {
+            int body_count, float held) {
     const real zero = splat(0.0f);
     body_sum sum = no_body_sum();
     const integer first = load_index(first_run, i);
@@ -315,8 +316,12 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     sum.lag.shift = borne_by.lag;
     sum.lag.turn = add_scaled(sum.lag.turn, body.torque, -borne_by.share);
 
-    body_motion alone = make_motion(sum.lag.shift, no_motion().turn);
-    if (!has_moved) alone = missing_motion(body, borne_by);
+    body_motion alone = missing_motion(body, borne_by, held);
+    if (has_moved) {
+        const real hold = body.pushed * splat(held);
+        const real3 left = add_scaled(sum.lag.shift, gone.shift, -hold);
+        alone = make_motion(scale(left, part_led(hold)), no_motion().turn);
+    }
 
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;
     const real touching = mass > zero ? splat(1.0f) : zero;

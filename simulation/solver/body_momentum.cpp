@@ -8,19 +8,30 @@
 
 namespace weft {
 
+namespace {
+
+/// What obstacles bear of cloth is found vertex by vertex, and its elements hold each of them some
+/// fifty times as hard as its inertia does.
+constexpr float kHeld = 50.0f;
+
+}  // namespace
+
 BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
-                           Buffer<float4>& targets, int first_kind)
+                           Buffer<float4>& targets, bool solves_vertices, int first_kind)
     : model_(model),
       contact_(contact),
       targets_(targets),
+      cloth_(solves_vertices ? ClothReactions::of(model, contact) : nullptr),
       free_bodies_(FreeBodies::of(model)),
       sums_{"momentum", first_kind, {}} {
+    const float held = cloth_ ? kHeld : 0.0f;
     if (free_bodies_)
-        touching_ = TouchingBodies::of(model, *free_bodies_, contact, multipliers, first_kind + 1);
-    if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_);
+        touching_ =
+            TouchingBodies::of(model, *free_bodies_, contact, multipliers, held, first_kind + 1);
+    if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_, held);
     if (free_bodies_ && (model.obstacles || touching_))
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
-    if (free_bodies_ && model.obstacles)
+    if ((free_bodies_ && model.obstacles) || cloth_)
         starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
     if (resting()) pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
 }
@@ -35,6 +46,17 @@ void BodyMomentum::keep_starts(std::vector<Launch>& launches) {
 void BodyMomentum::add_start_accesses(Step::Adding& task, int first, int last) {
     if (starts_) task.updates(*starts_, first, last);
     if (pressing_) task.updates(*pressing_, first, last);
+}
+
+Launch BodyMomentum::lead_cloth(VertexItems& items, Phase phase, Buffer<float4>& positions,
+                                Buffer<float>& sums) {
+    return cloth_->lead(items, phase, positions, {*starts_, targets_}, sums);
+}
+
+void BodyMomentum::add_cloth_accesses(Step::Adding& task, int first, int last) {
+    if (!cloth_) return;
+    task.updates(targets_, first, last).reads(*starts_, first, last);
+    cloth_->add_accesses(task, first, last);
 }
 
 void BodyMomentum::add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions) {

@@ -7,6 +7,7 @@
 #include "runtime/step.h"
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
+#include "simulation/solver/cloth_reactions.h"
 #include "simulation/solver/lone_bodies.h"
 #include "simulation/solver/touching_bodies.h"
 
@@ -19,10 +20,10 @@ namespace weft {
 class BodyMomentum {
 public:
     /// contact: null: none. multipliers: [entries of its rows] by which contacts rub; null: they do
-    /// so as their gaps say. targets: [vertices] x~. first_kind: of the tasks, if there are any.
-    /// All others must outlive this.
+    /// so as their gaps say. targets: [vertices] x~. solves_vertices: the solver has a system of
+    /// each of them. first_kind: of the tasks, if there are any. All others must outlive this.
     BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
-                 Buffer<float4>& targets, int first_kind);
+                 Buffer<float4>& targets, bool solves_vertices, int first_kind);
 
     bool has_bodies() const { return free_bodies_ != nullptr; }
     /// Null: nothing is free.
@@ -40,6 +41,15 @@ public:
 
     /// Solids on convex obstacles; null: none, or xpbd.
     RestingBodies* resting() { return touching_ ? touching_->resting() : nullptr; }
+
+    /// Whether what obstacles bear of cloth is found by these systems (cloth_reactions.h). They
+    /// then push before the first iteration, too.
+    bool solves_cloth() const { return cloth_ != nullptr; }
+    /// Leads x~ of the items of a phase by that, behind their sums.
+    Launch lead_cloth(VertexItems& items, Phase phase, Buffer<float4>& positions,
+                      Buffer<float>& sums);
+    /// What that needs of vertices [first, last), besides what the solver needs.
+    void add_cloth_accesses(Step::Adding& task, int first, int last);
 
     /// Pushes vertices out of obstacles, behind an iteration; nothing without any.
     void add_obstacles(std::vector<Launch>& launches, Buffer<float4>& positions);
@@ -73,11 +83,12 @@ private:
     ContactResponse* contact_;
     Buffer<float4>& targets_;
     Buffer<float4>* positions_ = nullptr;
+    std::unique_ptr<ClothReactions> cloth_;     ///< null: none
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
     std::unique_ptr<TouchingBodies> touching_;  ///< null: nothing may touch a free body
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or those
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
-    std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: none of bodies
+    std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: nobody asks
     std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no solids that obstacles push
     TaskBody sums_;                             ///< empty: no free bodies
 };

@@ -19,8 +19,9 @@ namespace weft {
 /// How substeps begin and end in all methods that descend E(x); see kernels/descent/substep.h.
 class DescentSubstep {
 public:
-    /// first_kind: of tasks that are not the solver's own, if there are any
-    DescentSubstep(Model& model, int first_kind);
+    /// solves_vertices: as BodyMomentum's. first_kind: of tasks that are not the solver's own, if
+    /// there are any
+    DescentSubstep(Model& model, bool solves_vertices, int first_kind);
 
     /// What the first and the last task of a substep launch.
     std::vector<Launch> begin();

@@ -62,11 +62,11 @@ public:
     explicit JpgdSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, kKinds),
+          substep_(model, /*solves_vertices=*/true, kKinds),
           contact_(substep_.contact()),
           items_(model.strips),
           derivatives_(model, items_),
-          energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
+          energy_(model, judged_from(), contact_ ? &contact_->energy() : nullptr),
           other_("positions.other", model.positions->count()),
           residues_{Buffer<float4>("positions.residue", model.positions->count()),
                     Buffer<float4>("positions.other.residue", model.positions->count())},
@@ -176,6 +176,10 @@ private:
                     contact_->gather_at(kInnerPhase, after(parity), items_, derivatives_.sums()));
             }
             for (TaskBody* body : {&refreshes_[p], &steps_[p]}) {
+                if (substep_.momentum().solves_cloth()) {
+                    body->launches.push_back(substep_.momentum().lead_cloth(
+                        items_, kInnerPhase, after(parity), derivatives_.sums()));
+                }
                 body->launches.push_back(contact_ ? descend_beside_contacts(parity)
                                                   : descend(parity));
                 substep_.momentum().add_obstacles(body->launches, after(parity + 1));
@@ -195,6 +199,13 @@ private:
         }
         const auto end = substep_.end();
         velocities_.launches.insert(velocities_.launches.end(), end.begin(), end.end());
+    }
+
+    /// What energies count inertia from. Reactions are forces of an obstacle, many times what
+    /// inertia has: E has them no more than it has the obstacle, whose surface they do not leave.
+    Buffer<float4>& judged_from() {
+        BodyMomentum& momentum = substep_.momentum();
+        return momentum.solves_cloth() ? *momentum.starts() : substep_.targets();
     }
 
     float slack() const {
@@ -244,7 +255,7 @@ private:
             const auto [seen_begin, seen_end] = seen_from(first, last);
             auto task = step.add(energies_[parity], iteration, region.strips(), region.id);
             task.reads(after(iteration), seen_begin, seen_end)
-                .reads(substep_.targets(), first, last)
+                .reads(judged_from(), first, last)
                 .updates(energy_.partials(), columns * region.begin, columns * region.end);
             if (contact_) contact_->energy().add_terms_accesses(task, region.begin, region.end);
         }
@@ -277,6 +288,7 @@ private:
             .updates(residue(iteration + 1), first, last);
         derivatives_.add_hessian_accesses(task, first, last, is_fresh);
         substep_.momentum().add_obstacle_accesses(task, first, last);
+        substep_.momentum().add_cloth_accesses(task, first, last);
         if (!contact_) return;
         contact_->rows().add_reads(task, strips.begin, strips.end, first, last);
         contact_->add_truncation_accesses(task, strips);

@@ -4,15 +4,16 @@
 
 namespace weft {
 
-LoneBodies::LoneBodies(FreeBodies& bodies)
+LoneBodies::LoneBodies(FreeBodies& bodies, float held)
     : bodies_(bodies),
+      held_(held),
       sums_(bodies),
       motions_("free.motions", 3 * static_cast<std::size_t>(bodies.run_count() + 1)) {}
 
 std::vector<Launch> LoneBodies::move(Model& model, Buffer<float4>& deviations) {
     const BodyRuns runs = bodies_.runs();
     return {launch(kernels::solve_runs, runs.by_strip, sums_.sums(), runs.first, runs.counts,
-                   motions_, bodies_.most_runs(), bodies_.run_count()),
+                   motions_, bodies_.most_runs(), bodies_.run_count(), held_),
             launch(kernels::move_runs, model.vertices(), *model.positions, deviations,
                    *model.velocities, motions_, runs.of_vertices, static_cast<float>(1.0 / model.h),
                    bodies_.run_count())};

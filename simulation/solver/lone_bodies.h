@@ -10,8 +10,8 @@ namespace weft {
 /// momentum (kernels/bodies/free_bodies.h).
 class LoneBodies {
 public:
-    /// bodies must outlive this.
-    explicit LoneBodies(FreeBodies& bodies);
+    /// bodies must outlive this. held: as in missing_motion (kernels/bodies/free_bodies.h)
+    LoneBodies(FreeBodies& bodies, float held);
 
     /// Adds up what is missing, behind the last iteration of all regions.
     MomentSums& sums() { return sums_; }
@@ -23,6 +23,7 @@ public:
 
 private:
     FreeBodies& bodies_;
+    float held_;
     MomentSums sums_;
     Buffer<float4> motions_;  ///< [3 * (runs + 1)] each region makes those of its own runs
 };

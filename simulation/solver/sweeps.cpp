@@ -4,10 +4,13 @@ namespace weft {
 
 SweepSolver::SweepSolver(Model& model)
     : model_(model),
-      substep_(model, kKinds),
+      substep_(model, /*solves_vertices=*/true, kKinds),
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {
+    if (substep_.momentum().solves_cloth()) {
+        substep_.momentum().add_obstacles(predict_.launches, *model.positions);
+    }
     substep_.momentum().look_at(*model.positions);
     substep_.lead_tied_parts();
     substep_.lead_bodies();
@@ -31,6 +34,10 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
         if (contact != nullptr) {
             body.launches.push_back(
                 contact->gather(phase, *model_.positions, sweep.items, sweep.derivatives.sums()));
+        }
+        if (substep_.momentum().solves_cloth()) {
+            body.launches.push_back(substep_.momentum().lead_cloth(
+                sweep.items, phase, *model_.positions, sweep.derivatives.sums()));
         }
         for (Launch& launch : solve({phase, *model_.positions, sweep.items,
                                      sweep.derivatives.sums(), substep_.targets(), inverse_h2})) {
@@ -117,6 +124,7 @@ void SweepSolver::add_seams(Step& step, int iteration, StripRange seams, RegionI
         .reads(*model_.positions, halo_begin, first)
         .reads(*model_.positions, last, halo_end)
         .reads(substep_.targets(), first, last);
+    substep_.momentum().add_cloth_accesses(task, first, last);
     if (substep_.contact() == nullptr) return;
     substep_.contact()->add_gather_accesses(task, iteration, seams.begin, seams.end + 1);
 }
@@ -126,6 +134,7 @@ void SweepSolver::add_strips(Step& step, int iteration, StripRange strips, Regio
     auto task = step.add(sweep(iteration).strips, iteration, strips, region);
     task.updates(*model_.positions, first, last).reads(substep_.targets(), first, last);
     substep_.momentum().add_obstacle_accesses(task, first, last);
+    substep_.momentum().add_cloth_accesses(task, first, last);
     ContactResponse* contact = substep_.contact();
     if (contact == nullptr) return;
     contact->add_gather_accesses(task, iteration, strips.begin, strips.end);

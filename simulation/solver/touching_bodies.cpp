@@ -49,20 +49,22 @@ std::optional<ContactRows> rows_of(ContactResponse* contact) {
 
 std::unique_ptr<TouchingBodies> TouchingBodies::of(Model& model, FreeBodies& bodies,
                                                    ContactResponse* contact,
-                                                   Buffer<float>* multipliers, int first_kind) {
+                                                   Buffer<float>* multipliers, float held,
+                                                   int first_kind) {
     std::unique_ptr<RestingBodies> resting;
     if (!multipliers) resting = RestingBodies::of(model, bodies, rubbing_of(model).creep);
     if (!contact && !resting) return nullptr;
-    return std::unique_ptr<TouchingBodies>(
-        new TouchingBodies(model, bodies, contact, std::move(resting), multipliers, first_kind));
+    return std::unique_ptr<TouchingBodies>(new TouchingBodies(
+        model, bodies, contact, std::move(resting), multipliers, held, first_kind));
 }
 
 TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
                                std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers,
-                               int first_kind)
+                               float held, int first_kind)
     : model_(model),
       bodies_(bodies),
       resting_(std::move(resting)),
+      held_(held),
       is_rubbed_(rubbing_of(model).friction > 0 || (resting_ && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
       pushes_(rows_of(contact), bodies.columns(), rubbing_of(model), multipliers, model.h),
@@ -116,7 +118,7 @@ std::vector<Launch> TouchingBodies::solve(int has_moved, int level) {
     std::vector<Launch> launches{launch(kernels::solve_bodies, all(), lags_, first_run_, counts_,
                                         masses_, moments_.moments(), motions_, strains_, rests_,
                                         bearings_, has_moved, is_rubbed_, groups_ ? 1 : 0,
-                                        bodies_.most_runs(), lag_count_, body_count())};
+                                        bodies_.most_runs(), lag_count_, body_count(), held_)};
     if (!groups_) return launches;
     launches.push_back(launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_,
                               groups_->firsts, groups_->counts, groups_->members, group_motions_,

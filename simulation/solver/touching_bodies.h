@@ -22,10 +22,11 @@ class TouchingBodies {
 public:
     /// Null: nothing may touch a free body.
     /// contact: null: none. multipliers: as BodyPushes'; xpbd has them, which lets its solids turn
-    /// out of obstacles by themselves. first_kind: of the tasks. All others must outlive this.
+    /// out of obstacles by themselves. held: as in missing_motion (kernels/bodies/free_bodies.h).
+    /// first_kind: of the tasks. All others must outlive this.
     static std::unique_ptr<TouchingBodies> of(Model& model, FreeBodies& bodies,
                                               ContactResponse* contact, Buffer<float>* multipliers,
-                                              int first_kind);
+                                              float held, int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
@@ -56,7 +57,7 @@ public:
 
 private:
     TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
-                   std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers,
+                   std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers, float held,
                    int first_kind);
     std::vector<Launch> collect(Buffer<float4>& positions);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
@@ -78,8 +79,9 @@ private:
     Model& model_;
     FreeBodies& bodies_;
     std::unique_ptr<RestingBodies> resting_;  ///< null: see resting()
-    int is_rubbed_;                           ///< 1 with friction
-    int parts_;                               ///< that are summed up
+    float held_;
+    int is_rubbed_;  ///< 1 with friction
+    int parts_;      ///< that are summed up
     BodyPushes pushes_;
     BodyGroups* groups_;  ///< null: bodies do not touch each other
     int lag_count_;

@@ -145,9 +145,9 @@ private:
     /// bodies sink into what bears them.
     void find_bodies() {
         targets_ = std::make_unique<Buffer<float4>>("targets", model_.positions->count());
-        momentum_ =
-            std::make_unique<BodyMomentum>(model_, contact_.get(), &projection_->multipliers(),
-                                           *targets_, static_cast<int>(kinds_.size()));
+        momentum_ = std::make_unique<BodyMomentum>(
+            model_, contact_.get(), &projection_->multipliers(), *targets_,
+            /*solves_vertices=*/false, static_cast<int>(kinds_.size()));
         if (momentum_->has_bodies()) {
             momentum_->look_at(*model_.positions);
             std::ranges::copy(momentum_->kinds(), std::back_inserter(kinds_));

@@ -55,8 +55,8 @@ void solve_case(KernelCase& c) {
     auto& counts = c.add<float>("counts", c.items);
     for (float& count : counts.span()) count = static_cast<float>(c.random.integer(0, kRows));
     auto& motions = c.add<float4>("motions", 3 * (c.items + 1));
-    c.launch =
-        launch(kernels::solve_runs, c.segments, sums, first, counts, motions, kRows, c.items);
+    c.launch = launch(kernels::solve_runs, c.segments, sums, first, counts, motions, kRows, c.items,
+                      c.random.integer(0, 1) == 0 ? 0.0f : 50.0f);
 }
 
 void move_case(KernelCase& c) {

@@ -2,6 +2,7 @@
 // here.
 
 #include "kernels/contact/resting.h"
+#include "kernels/descent/cloth_reactions.h"
 #include "kernels/obstacles/inside.h"
 #include "kernels/obstacles/narrow.h"
 
@@ -179,6 +180,33 @@ Buffer<float>& add_flags(KernelCase& c, const char* name) {
     return flags;
 }
 
+/// Of cloth and of others, some of it pushed.
+void reactions_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    const Moved moved = add_moved(c);
+    auto& starts = response::add_points(c, "starts", c.items);
+    auto& targets = add_targets(c);
+    auto& cloth = c.add<float>("cloth", c.items);
+    for (float& one : cloth.span()) one = c.random.integer(0, 5) == 0 ? 0.0f : 1.0f;
+    auto& vertices = c.add<int>("vertices", c.items);
+    const std::vector<int> order = c.random.permutation(c.items);
+    std::copy(order.begin(), order.end(), vertices.data());
+    auto& sums = c.add<float>("sums", 9 * c.items);
+    for (float& sum : sums.span()) sum = c.random.real(-1e3f, 1e3f);
+    auto& planes = add_planes(c, moved.positions);
+    const response::Rows rows(c, "contacts", c.items, response::kRoom);
+    for (int& count : rows.counts.span()) count = c.random.integer(0, 2) == 0 ? count : 0;
+    const auto corner = [&](const char* name) -> Buffer<int>& {
+        return response::add_indices(c, name, rows.entries, c.items);
+    };
+    auto &corner0 = corner("corner0"), &corner1 = corner("corner1"), &corner2 = corner("corner2"),
+         &corner3 = corner("corner3");
+    c.launch = launch(kernels::lead_cloth, c.segments, moved.positions, moved.previous, starts,
+                      targets, cloth, vertices, sums, obstacles, planes, rows.rows, rows.counts,
+                      corner0, corner1, corner2, corner3, c.items, 1e4f, c.random.integer(0, 1),
+                      c.random.integer(0, 1), c.items, kObstacles, kInstance);
+}
+
 /// Of solids' vertices and of others; rows have contacts, and room for few more entries.
 void collect_resting_case(KernelCase& c) {
     auto& obstacles = add_obstacles(c);
@@ -239,7 +267,7 @@ void see_targets_case(KernelCase& c) {
 }
 
 const bool added = add_case("find_obstacle_planes", planes_case) &&
-                   add_case("find_inside", inside_case) &&
+                   add_case("find_inside", inside_case) && add_case("lead_cloth", reactions_case) &&
                    add_case("see_targets", see_targets_case) &&
                    add_case("collect_resting", collect_resting_case) &&
                    add_case("keep_resting_slips", keep_resting_slips_case);

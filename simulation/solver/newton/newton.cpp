@@ -49,7 +49,7 @@ public:
     NewtonSolver(Model& model, const VertexGraph& graph)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, kKinds),
+          substep_(model, /*solves_vertices=*/false, kKinds),
           contact_(substep_.contact()),
           gradients_(model, substep_, graph),
           smoother_(model, substep_, graph, {kSeams, kStrips}),

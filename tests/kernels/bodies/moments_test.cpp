@@ -183,12 +183,13 @@ TEST(BodyMoments, WhatIsPushedIsNotTurned) {
         heap.previous[v] = heap.positions[v];
         heap.unpushed[v] = heap.targets[v];
     }
-    ASSERT_GT(length3(missing_motion(heap.weigh(), {make3(0.0f, 0.0f, 0.0f), 0.0f}).turn), 1e-3f);
+    ASSERT_GT(length3(missing_motion(heap.weigh(), {make3(0.0f, 0.0f, 0.0f), 0.0f}, 0.0f).turn),
+              1e-3f);
     heap.unpushed[0].y -= 1e-3f;
     heap.targets[0].w = 1e-9f;
     const moments found = heap.weigh();
     EXPECT_GT(found.pushed, 0.0f);
-    const body_motion motion = missing_motion(found, {make3(0.001f, 0.0f, 0.002f), 0.0f});
+    const body_motion motion = missing_motion(found, {make3(0.001f, 0.0f, 0.002f), 0.0f}, 0.0f);
     EXPECT_EQ(length3(motion.turn), 0.0f);
     EXPECT_EQ(motion.shift.x, 0.001f);
     EXPECT_EQ(motion.shift.z, 0.002f);
@@ -208,9 +209,10 @@ body_motion push_end(Cloud& cloud, real3 normal) {
     const real3 force = scale(normal, 1e-3f);
     store4(lags.data(), column(first, 2, 5), with_w(force, form.mixed.z.z));
     store4(lags.data(), column(first, 2, 6), with_w(cross3(lever, force), 0.0f));
-    Cloud::run(launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts,
-                      masses, cloud.table, motions, strains, rests, bearings, 0, 0, 1, 1, 2, 1),
-               1);
+    Cloud::run(
+        launch(kernels::solve_bodies, Segments{}, lags, cloud.first_run, cloud.counts, masses,
+               cloud.table, motions, strains, rests, bearings, 0, 0, 1, 1, 2, 1, 0.0f),
+        1);
     for (const float4& rest : rests.span()) EXPECT_TRUE(std::isfinite(rest.x + rest.y + rest.z));
     return gather_motion(motions.data(), 2, 0);
 }

@@ -28,10 +28,10 @@ struct OneBody {
 
     /// What each part of the sum is; there are two runs, of which the second one is nobody's.
     float4& part(std::size_t number) { return lags[2 * number]; }
-    void solve(int has_moved) {
+    void solve(int has_moved, float held = 0.0f) {
         const Launch launched =
             launch(kernels::solve_bodies, Segments{}, lags, first, counts, masses, moments, motions,
-                   strains, rests, bearings, has_moved, 0, 1, 1, 2, 1);
+                   strains, rests, bearings, has_moved, 0, 1, 1, 2, 1, held);
         run_on_host(launched, launched.kernel->scalar, 0, 1);
     }
 };
@@ -131,13 +131,13 @@ TEST(BodiesAsWholes, BehindItTheyRubByWhatBearsTheBody) {
 }
 
 /// How it moves in a scene without contacts.
-body_motion motion_alone(OneBody& body) {
+body_motion motion_alone(OneBody& body, float held = 0.0f) {
     Buffer<float4> sums("sums", 2 * WEFT_MOMENT_PARTS), motions("motions", 6);
     for (std::size_t part = 0; part < WEFT_MOMENT_PARTS; ++part) {
         sums[part] = body.moments[2 * part];
     }
     const Launch launched =
-        launch(kernels::solve_runs, Segments{}, sums, body.first, body.counts, motions, 1, 1);
+        launch(kernels::solve_runs, Segments{}, sums, body.first, body.counts, motions, 1, 1, held);
     run_on_host(launched, launched.kernel->scalar, 0, 1);
     return gather_motion(motions.data(), 2, 0);
 }
@@ -174,6 +174,21 @@ TEST(BodiesAsWholes, ClothThatAnObstacleTouchesIsNotTurned) {
         EXPECT_EQ(body.motions[0].y, 0.25f);
         EXPECT_EQ(body.motions[2].z == 0.0f, pushed > 0.0f);
     }
+}
+
+/// By as much as if a spring led from what is on an obstacle to where it is, in all rounds
+/// together.
+TEST(BodiesAsWholes, WhatObstaclesHoldIsShiftedTheLess) {
+    constexpr float kLag = 0.5f, kHeld = 50.0f, kPushed = 0.25f;
+    OneBody body;
+    body.moments[12].w = kPushed;
+    body.part(5) = {kLag, 0.0f, 0.0f, 0.0f};
+    body.solve(0, kHeld);
+    const float shift = kLag / (1.0f + kHeld * kPushed);
+    EXPECT_FLOAT_EQ(body.motions[0].x, shift);
+    body.part(5) = {kLag - shift, 0.0f, 0.0f, 0.0f};
+    body.solve(1, kHeld);
+    EXPECT_NEAR(body.motions[0].x, shift, 1e-7f);
 }
 
 /// Two edges that cross, of a body each.

@@ -26,7 +26,7 @@ class System {
 public:
     explicit System(const std::string& text)
         : model(parse_scene(text, "test.toml"), warnings),
-          substep(model, 0),
+          substep(model, /*solves_vertices=*/false, 0),
           cg(model, substep, VertexGraph(model.vertex_count(), model.stencils())) {}
 
     void crumple(float size) {
