@@ -37,12 +37,11 @@ void ReferenceVbd::System::add_diagonal(double value) {
 }
 
 /// By Cramer's rule.
-Vec3 ReferenceVbd::System::step() const {
+Vec3 ReferenceVbd::System::solve(Vec3 force) const {
     const auto& [a, b, c] = hessian;
     const double determinant = dot(a, cross(b, c));
-    const Vec3 along =
-        gradient.x * cross(b, c) + gradient.y * cross(c, a) + gradient.z * cross(a, b);
-    return (-1.0 / determinant) * along;
+    const Vec3 along = force.x * cross(b, c) + force.y * cross(c, a) + force.z * cross(a, b);
+    return (1.0 / determinant) * along;
 }
 
 ReferenceVbd::ReferenceVbd(const Model& model)
@@ -57,6 +56,7 @@ ReferenceVbd::ReferenceVbd(const Model& model)
     }
     deviation_.resize(count);
     target_.resize(count);
+    pushed_.resize(count);
     const auto add = [&](Kind kind, const ElementFamily* family) {
         touching_[kind].resize(count);
         if (family == nullptr) return;
@@ -99,19 +99,34 @@ void ReferenceVbd::begin(double time) {
         x[i] = target_[i];
         if (held_up < -0.125) x[i] = x[i] + (held_up * h * h) * gravity;
     }
+    start_ = target_;
+    pushed_.assign(x.size(), false);
+    collide();
 }
 
 void ReferenceVbd::move(int vertex) {
     const std::size_t i = index(vertex);
     if (mass_[i] == 0.0) return;
     const double inertia = mass_[i] / (model_.h * model_.h);
-    System system{inertia * (x[i] - target_[i]), {}};
+    System system{inertia * (x[i] - start_[i]), {}};
     system.add_diagonal(inertia);
     for (const int e : touching_[kSprings][i]) add_spring(system, e, vertex);
     for (const int e : touching_[kHinges][i]) add_hinge(system, e, vertex);
     for (const int e : touching_[kMembranes][i]) add_membrane(system, e, vertex);
     for (const int e : touching_[kTetrahedra][i]) add_tetrahedron(system, e, vertex);
-    x[i] = x[i] + system.step();
+    // What has been pushed is borne by what keeps it out of the plane; all else by its pushes.
+    if (pushed_[i]) target_[i] = start_[i] + (1.0 / inertia) * borne(system, i);
+    const Vec3 pushes = inertia * (target_[i] - start_[i]);
+    x[i] = x[i] + system.solve(pushes - system.gradient);
+}
+
+Vec3 ReferenceVbd::borne(const System& system, std::size_t vertex) const {
+    const Obstacle& plane = model_.scene.obstacles.front();
+    const Frame frame = plane.frame_at(0.0);
+    const Vec3 normal = frame.axes * Vec3{0.0, 1.0, 0.0};
+    const double gap = frame.to_local(x[vertex]).y - plane.thickness;
+    const double inwards = -gap - dot(normal, system.solve(-system.gradient));
+    return (std::max(inwards, 0.0) / dot(normal, system.solve(normal))) * normal;
 }
 
 /// E = k/2 (l - rest)^2; a compressed spring's stiffness across itself is left out.
@@ -198,6 +213,7 @@ void ReferenceVbd::collide() {
         for (std::size_t i = 0; i < x.size(); ++i) {
             const double depth = obstacle.thickness - frame.to_local(x[i]).y;
             if (mass_[i] == 0.0 || depth <= 0.0) continue;
+            pushed_[i] = true;
             x[i] = x[i] + depth * normal;
             target_[i] = target_[i] + depth * normal;
         }

@@ -10,8 +10,8 @@ namespace weft::test {
 
 /// Vertex block descent once more (Chen et al. 2024): straightforward, in double precision, one
 /// vertex after the other in the order that the layout defines. Shares the model's tables with the
-/// solver, and no arithmetic. For scenes whose bodies are all held somewhere, and whose obstacles
-/// are planes without friction that stand still.
+/// solver, and no arithmetic. For scenes whose bodies are all held somewhere, and whose obstacle,
+/// if they have one, is a plane without friction that stands still, below cloth alone.
 class ReferenceVbd {
 public:
     explicit ReferenceVbd(const Model& model);
@@ -30,7 +30,7 @@ private:
         /// Adds factor * direction direction^T.
         void add_dyad(double factor, Vec3 direction);
         void add_diagonal(double value);
-        Vec3 step() const;  ///< -hessian^-1 gradient
+        Vec3 solve(Vec3 force) const;  ///< hessian^-1 force
     };
 
     void begin(double time);
@@ -39,12 +39,14 @@ private:
     void add_hinge(System& system, int hinge, int vertex) const;
     void add_membrane(System& system, int triangle, int vertex) const;
     void add_tetrahedron(System& system, int tetrahedron, int vertex) const;
+    Vec3 borne(const System& system, std::size_t vertex) const;
     void collide();
 
     const Model& model_;
     VertexLayout layout_;
     std::vector<double> mass_, decay_;  ///< mass 0: held
-    std::vector<Vec3> target_, deviation_;
+    std::vector<Vec3> start_, target_, deviation_;
+    std::vector<bool> pushed_;  ///< in this substep
     /// Elements of each kind by vertex: springs, hinges, membranes, tetrahedra.
     std::array<std::vector<std::vector<int>>, 4> touching_;
 };
