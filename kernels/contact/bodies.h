@@ -316,11 +316,13 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     sum.lag.shift = borne_by.lag;
     sum.lag.turn = add_scaled(sum.lag.turn, body.torque, -borne_by.share);
 
-    body_motion alone = missing_motion(body, borne_by, held);
+    body_motion alone = no_motion();
     if (has_moved) {
         const real hold = body.pushed * splat(held);
         const real3 left = add_scaled(sum.lag.shift, gone.shift, -hold);
-        alone = make_motion(scale(left, part_led(hold)), no_motion().turn);
+        alone.shift = scale(left, part_led(hold));
+    } else {
+        alone = missing_motion(body, borne_by, held);
     }
 
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;

@@ -116,7 +116,7 @@ WEFT_INLINE real nearest_plane(WEFT_GLOBAL const float4* planes, int narrow_coun
     return nearest;
 }
 
-/// How many contacts with cloth a vertex has, where that counts.
+/// How many contacts of cloth with cloth a vertex has, where that counts.
 /// cloth, rows, counts, corner0 to corner3  as below
 WEFT_INLINE real touching_cloth(WEFT_GLOBAL const float* cloth, WEFT_GLOBAL const int* rows,
                                 WEFT_GLOBAL const int* counts, WEFT_GLOBAL const int* corner0,
@@ -141,6 +141,7 @@ WEFT_INLINE real touching_cloth(WEFT_GLOBAL const float* cloth, WEFT_GLOBAL cons
     return found;
 }
 
+/// Leads x~ of cloth that obstacles have pushed by what they bear of it, before it is solved.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]
 /// previous    [vertices] xyz at the substep's start [m]
 /// starts      [vertices] xyz: x~ before all pushes [m]

@@ -1,4 +1,5 @@
-// Cloth over obstacles: what should slide does, what should stay does, and nothing gains energy.
+// Cloth on obstacles: what should slide does, what should stay does, and what bears a load gains no
+// energy by that.
 
 #include <gtest/gtest.h>
 
@@ -104,6 +105,53 @@ TEST_P(DrapedCloth, HangsOverAnEdge) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, DrapedCloth, kMethods, name_of_method);
+
+class LoadedCloth : public EverySolver {};
+
+/// An obstacle that bears no more of the sheet than what it weighs lets the load sink in: contacts
+/// stored a hundred times what the fall gives.
+TEST_P(LoadedCloth, BearsABlockThatFallsOnIt) {
+    ManualRun run(scene_of(R"(
+[scene]
+frames = 1
+dt = 0.016666667
+[solver]
+iterations = 8
+[contact]
+friction = 0.3
+[[cloth]]
+grid = { size = [0.4, 0.4], resolution = [21, 21] }
+translate = [0, 0.004, 0]
+density = 0.2
+stretch = { stiffness = 1e3 }
+[[solid]]
+grid = { size = [0.1, 0.1, 0.1], resolution = [4, 4, 4] }
+translate = [0, 0.07, 0]
+density = 5000
+young = 1e6
+poisson = 0.3
+[[obstacle]]
+shape = "plane"
+point = [0, 0, 0]
+friction = 0.3
+thickness = 0.002
+)"));
+    const double start = momentum_of(run, 1).place.y;
+    for (int frame = 0; frame < 30; ++frame) {
+        run.run(1);
+        const Momentum block = momentum_of(run, 1);
+        const double had = block.mass * 9.81 * (start - block.place.y);
+        ASSERT_LT(kinetic_energy(run), had + 1e-3) << frame;
+        ASSERT_GT(block.place.y, 0.05) << frame;
+    }
+    EXPECT_LT(kinetic_energy(run), 1e-4);
+    EXPECT_NEAR(momentum_of(run, 1).place.y, 0.058, 5e-4);
+}
+
+/// (Newton and xpbd know nothing of it.)
+INSTANTIATE_TEST_SUITE_P(Methods, LoadedCloth,
+                         testing::Values(Method::kVbd, Method::kSosd, Method::kJpgd),
+                         name_of_method);
 
 }  // namespace
 }  // namespace weft::test

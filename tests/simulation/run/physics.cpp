@@ -101,4 +101,13 @@ double run_without_momentum(ManualRun& run, int frames, double tolerance) {
     return largest;
 }
 
+double kinetic_energy(const ManualRun& run) {
+    double sum = 0.0;
+    for (std::size_t v = 0; v < run.model->masses.size(); ++v) {
+        const Vec3 u = to_vec3((*run.model->velocities)[v]);
+        sum += 0.5 * run.model->masses[v] * dot(u, u);
+    }
+    return sum;
+}
+
 }  // namespace weft::test

@@ -46,6 +46,9 @@ Momentum momentum_of(const ManualRun& run, int first, int count);
 /// Of a body of the model.
 Momentum momentum_of(const ManualRun& run, int body);
 
+/// Of all vertices, held ones too [J].
+double kinetic_energy(const ManualRun& run);
+
 /// Runs from a state out of rest, and expects neither momentum nor angular momentum, in parts of
 /// what all momenta together are like. Returns the latter [kg m/s].
 double run_without_momentum(ManualRun& run, int frames, double tolerance);
