@@ -316,18 +316,22 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     sum.lag.shift = borne_by.lag;
     sum.lag.turn = add_scaled(sum.lag.turn, body.torque, -borne_by.share);
 
+    sym6 own_form = own_form_of(body);
+    const real hold = body.pushed * splat(held);
+    const real3 turned = multiply_sym(own_form.turn, gone.turn);
+    sum.lag.shift = add_scaled(sum.lag.shift, gone.shift, -hold);
+    sum.lag.turn = add_scaled(sum.lag.turn, turned, -hold);
+    own_form.shift = add_diagonal(own_form.shift, hold);
+    own_form.turn = scale_sym(own_form.turn, splat(1.0f) + hold);
     body_motion alone = no_motion();
     if (has_moved) {
-        const real hold = body.pushed * splat(held);
-        const real3 left = add_scaled(sum.lag.shift, gone.shift, -hold);
-        alone.shift = scale(left, part_led(hold));
+        alone.shift = scale(sum.lag.shift, part_led(hold));
     } else {
         alone = missing_motion(body, borne_by, held);
     }
 
     const real mass = trace_sym(sum.block.shift) > zero ? load(masses, i) : zero;
     const real touching = mass > zero ? splat(1.0f) : zero;
-    const sym6 own_form = own_form_of(body);
     body_motion step = solve_sym6(add_scaled_sym6(sum.block, own_form, splat(1.0f)), sum.lag);
     step = add_scaled_motion(add_scaled_motion(no_motion(), step, touching), alone,
                              splat(1.0f) - touching);

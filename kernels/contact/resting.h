@@ -1,7 +1,7 @@
 #ifndef WEFT_KERNELS_CONTACT_RESTING_H
 #define WEFT_KERNELS_CONTACT_RESTING_H
 
-// Solids on convex obstacles, as the rounds of bodies.h see them. To vertices, obstacles are hard:
+// Bodies on convex obstacles, as the rounds of bodies.h see them. To vertices, obstacles are hard:
 // each iteration pushes them out (obstacles/contact.h). A stiff solid that a substep leads into the
 // ground by 1 mm has its lowest vertices pushed up by that, and the few iterations that follow can
 // neither lift all of it nor take back the strain: a block of 1e8 Pa that fell by 5 mm had a
@@ -12,9 +12,15 @@
 //   max(0, known - k gap)
 //
 // where `known` is what the obstacle is known to bear there (bodies/reactions.h), none before the
-// first iteration; the solid lacks that no more, so what counts is how much more or less it gets.
-// It rubs as contacts do: by the slip since the vertex came to lie there (sticking.h), and as hard
-// as what bears the body says (bearings.h).
+// first iteration; the body lacks that no more, so what counts is how much more or less it gets.
+// It rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h), and as
+// hard as what bears the body says (bearings.h).
+//
+// Cloth in contact lies on obstacles likewise. Where a sheet comes to lie on another one, a round
+// that knows of their contact alone leads the lower one into what bears it by as much as the upper
+// one out, and iterations push it back into the upper one: two sheets that fell on a table stored
+// four hundred times what they had (docs/measurements.md, "Sheets that fall on obstacles"). How
+// obstacles rub single vertices of cloth is known from iterations, and nothing is added to that.
 
 #include "kernels/bodies/runs.h"
 #include "kernels/contact/rows.h"
@@ -63,14 +69,15 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
     store4_where(is_solid, seen_starts, i, own);
 }
 
-/// Adds an entry for each vertex of a column's solid that is near an obstacle, behind the contacts
+/// Adds an entry for each vertex of a column's body that is near an obstacle, behind the contacts
 /// of the column (pushes.h).
 /// positions    [vertices] xyz, w = 1/mass [1/kg]
 /// previous     [vertices] xyz at the substep's start [m]
 /// seen_targets [vertices] as see_targets leaves them; starts: as there
 /// kept         [vertices] xyz: the slips that the substep began with [m]
 /// obstacles    [substeps * obstacle_count * WEFT_OBSTACLE_ROWS], see obstacles/contact.h
-/// solid        [vertices] as in see_targets
+/// borne        [vertices] 1: of a body that lies on obstacles as a whole; else 0
+/// solid        [vertices] as in see_targets: what obstacles rub
 /// hardness     [vertices] k [N/m]
 /// push_rows to presses  as collect_pushes leaves them; here of other_points w: what is known [N]
 /// reach        [m] what is farther away has no entry
@@ -78,9 +85,10 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
 WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* seen_targets,
                    WEFT_GLOBAL const float4* starts, WEFT_GLOBAL const float4* kept,
-                   WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float* solid,
-                   WEFT_GLOBAL const float* hardness, WEFT_GLOBAL const int* members,
-                   WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* column_rows,
+                   WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float* borne,
+                   WEFT_GLOBAL const float* solid, WEFT_GLOBAL const float* hardness,
+                   WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+                   WEFT_GLOBAL const int* column_rows,
                    WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
                    WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
                    WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
@@ -97,7 +105,7 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
         const item member = {column_rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
         const integer vertex = load_index(members, member);
         const real4 x = gather4(positions, vertex);
-        const real counts = load(shares, member) * gather(solid, vertex) * x.w;
+        const real counts = load(shares, member) * gather(borne, vertex) * x.w;
         if (!any_item(counts > zero)) continue;
         const real3 before = xyz(gather4(previous, vertex));
         const real3 earlier = xyz(gather4(kept, vertex));
@@ -119,11 +127,12 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             const mask fits = both(is_near, found < room);
             const integer place = address(push_start + found * WEFT_ROW_STRIDE);
             const real4 force = {one, one, gather(hardness, vertex), one};
+            const real friction = splat(o[7].y) * gather(solid, vertex);
             scatter_whole_where(fits, codes, place, splat_whole(4 * body_count));
             scatter4_where(fits, sides, place, with_w(normal, gap));
             scatter4_where(fits, slips, place, with_w(slip, one));
             scatter4_where(fits, forces, place, force);
-            scatter4_where(fits, points, place, with_w(xyz(x), splat(o[7].y)));
+            scatter4_where(fits, points, place, with_w(xyz(x), friction));
             scatter4_where(fits, other_points, place, with_w(xyz(x), known));
             scatter_where(fits, presses, place, known);
             found = is_near ? found + splat_whole(1) : found;

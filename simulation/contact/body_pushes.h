@@ -33,7 +33,7 @@ public:
     /// its buffers.
     struct Resting {
         Buffer<float4>&positions, &previous, &seen_targets, &starts, &slips, &obstacles;
-        Buffer<float>&solid, &hardness;
+        Buffer<float>&borne, &solid, &hardness;
         int body_count, obstacle_count;
         float reach;
     };

@@ -11,7 +11,8 @@ namespace weft {
 namespace {
 
 /// What obstacles bear of cloth is found vertex by vertex, and its elements hold each of them some
-/// fifty times as hard as its inertia does.
+/// fifty times as hard as its inertia does. So what such a body lacks as a whole is theirs to make
+/// good; xpbd's projections lack nothing.
 constexpr float kHeld = 50.0f;
 
 }  // namespace
@@ -24,7 +25,7 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
       cloth_(solves_vertices ? ClothReactions::of(model, contact) : nullptr),
       free_bodies_(FreeBodies::of(model)),
       sums_{"momentum", first_kind, {}} {
-    const float held = cloth_ ? kHeld : 0.0f;
+    const float held = cloth_ || (contact && !multipliers) ? kHeld : 0.0f;
     if (free_bodies_)
         touching_ =
             TouchingBodies::of(model, *free_bodies_, contact, multipliers, held, first_kind + 1);

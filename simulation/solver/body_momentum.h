@@ -39,7 +39,7 @@ public:
     /// What obstacles press, of a substep (kernels/obstacles/contact.h); null: nobody asks.
     Buffer<float4>* pressing() { return pressing_.get(); }
 
-    /// Solids on convex obstacles; null: none, or xpbd.
+    /// Bodies on convex obstacles; null: none.
     RestingBodies* resting() { return touching_ ? touching_->resting() : nullptr; }
 
     /// Whether what obstacles bear of cloth is found by these systems (cloth_reactions.h). They
@@ -89,7 +89,7 @@ private:
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or those
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
     std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: nobody asks
-    std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no solids that obstacles push
+    std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no bodies that rest
     TaskBody sums_;                             ///< empty: no free bodies
 };
 

@@ -51,7 +51,7 @@ void DescentSubstep::keep_triangles_out(std::vector<Buffer<float4>*> iterates, b
 void DescentSubstep::look_at_reactions(VertexItems& items, VertexDerivatives& derivatives,
                                        std::vector<Phase> phases, Buffer<float4>& positions,
                                        bool keeps_blocks) {
-    if (momentum_.resting() == nullptr) return;
+    if (momentum_.resting() == nullptr || !momentum_.bodies()->has_solids()) return;
     const Reactions::Setting setting{
         positions,   targets_,          *momentum_.starts(), *momentum_.pressing(), items,
         derivatives, std::move(phases), keeps_blocks,        contact_.get()};

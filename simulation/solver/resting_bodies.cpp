@@ -29,7 +29,7 @@ double reach_of_obstacles(const Model& model) {
 
 std::unique_ptr<RestingBodies> RestingBodies::of(Model& model, const FreeBodies& bodies,
                                                  double creep) {
-    if (!model.obstacles || !bodies.has_solids()) return nullptr;
+    if (!model.obstacles || !(model.scene.contact || bodies.has_solids())) return nullptr;
     return std::make_unique<RestingBodies>(model, bodies, creep);
 }
 
@@ -37,6 +37,7 @@ RestingBodies::RestingBodies(Model& model, const FreeBodies& bodies, double cree
     : model_(model),
       creep_(static_cast<float>(creep)),
       reach_(static_cast<float>(reach_of_obstacles(model))),
+      borne_("resting.borne", model.positions->count()),
       solid_("resting.solid", model.positions->count()),
       hardness_("resting.hardness", model.positions->count()),
       targets_("resting.targets", model.positions->count()),
@@ -44,6 +45,8 @@ RestingBodies::RestingBodies(Model& model, const FreeBodies& bodies, double cree
       slips_("resting.slips", model.positions->count()) {
     for (int r = 0; r < bodies.run_count(); ++r) {
         const FreeBodies::Run& run = bodies.run(r);
+        const bool is_borne = run.is_solid || model.scene.contact;
+        if (is_borne) std::fill(borne_.data() + run.begin, borne_.data() + run.end, 1.0f);
         if (run.is_solid) std::fill(solid_.data() + run.begin, solid_.data() + run.end, 1.0f);
     }
     const std::vector<float> stiffness = contact_stiffness(model);
@@ -61,7 +64,7 @@ Launch RestingBodies::see(Buffer<float4>& targets, const ObstaclePushes& obstacl
 Launch RestingBodies::collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
                               int body_count) {
     return pushes.collect_resting({positions, *model_.previous, targets_, starts, slips_,
-                                   model_.obstacles->placements(), solid_, hardness_, body_count,
+                                   model_.obstacles->placements(), borne_, solid_, hardness_, body_count,
                                    model_.obstacles->count(), reach_});
 }
 

@@ -13,14 +13,15 @@ namespace weft {
 struct ObstaclePushes {
     Buffer<float4>* starts = nullptr;    ///< [vertices] x~ before; null: there are no obstacles
     Buffer<float4>* pressing = nullptr;  ///< [vertices] (kernels/obstacles/contact.h); null: no
-                                         ///< solid rests
+                                         ///< body rests
 };
 
-/// Free solids on convex obstacles: to the rounds that move bodies as wholes, obstacles are
-/// contacts like any other (kernels/contact/resting.h).
+/// Free bodies on convex obstacles: to the rounds that move these as wholes, obstacles are contacts
+/// like any other (kernels/contact/resting.h). Without [contact], to solids alone: what else bears
+/// cloth is nothing that such a round would lead it into.
 class RestingBodies {
 public:
-    /// Null: there are no convex obstacles, or no solids. creep: of what sticks, per substep [m].
+    /// Null: there are no convex obstacles, or no such bodies. creep: of what sticks, per substep [m].
     /// model must outlive this.
     static std::unique_ptr<RestingBodies> of(Model& model, const FreeBodies& bodies, double creep);
     RestingBodies(Model& model, const FreeBodies& bodies, double creep);
@@ -47,7 +48,8 @@ public:
 private:
     Model& model_;
     float creep_, reach_;
-    Buffer<float> solid_;     ///< [vertices] see the kernels for all of these
+    Buffer<float> borne_;     ///< [vertices] see the kernels for all of these
+    Buffer<float> solid_;     ///< [vertices]
     Buffer<float> hardness_;  ///< [vertices]
     Buffer<float4> targets_;  ///< [vertices]
     Buffer<float4> starts_;   ///< [vertices]

@@ -51,8 +51,7 @@ std::unique_ptr<TouchingBodies> TouchingBodies::of(Model& model, FreeBodies& bod
                                                    ContactResponse* contact,
                                                    Buffer<float>* multipliers, float held,
                                                    int first_kind) {
-    std::unique_ptr<RestingBodies> resting;
-    if (!multipliers) resting = RestingBodies::of(model, bodies, rubbing_of(model).creep);
+    auto resting = RestingBodies::of(model, bodies, rubbing_of(model).creep);
     if (!contact && !resting) return nullptr;
     return std::unique_ptr<TouchingBodies>(new TouchingBodies(
         model, bodies, contact, std::move(resting), multipliers, held, first_kind));
@@ -65,7 +64,8 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       bodies_(bodies),
       resting_(std::move(resting)),
       held_(held),
-      is_rubbed_(rubbing_of(model).friction > 0 || (resting_ && model.obstacles->have_friction())),
+      is_rubbed_(rubbing_of(model).friction > 0 ||
+                 (resting_ && bodies.has_solids() && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
       pushes_(rows_of(contact), bodies.columns(), rubbing_of(model), multipliers, model.h),
       groups_(contact ? &contact->motion().group(parts_of(model, bodies)) : nullptr),

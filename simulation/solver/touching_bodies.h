@@ -21,9 +21,8 @@ namespace weft {
 class TouchingBodies {
 public:
     /// Null: nothing may touch a free body.
-    /// contact: null: none. multipliers: as BodyPushes'; xpbd has them, which lets its solids turn
-    /// out of obstacles by themselves. held: as in missing_motion (kernels/bodies/free_bodies.h).
-    /// first_kind: of the tasks. All others must outlive this.
+    /// contact: null: none. multipliers: as BodyPushes'. held: as in missing_motion
+    /// (kernels/bodies/free_bodies.h). first_kind: of the tasks. All others must outlive this.
     static std::unique_ptr<TouchingBodies> of(Model& model, FreeBodies& bodies,
                                               ContactResponse* contact, Buffer<float>* multipliers,
                                               float held, int first_kind);
@@ -52,7 +51,7 @@ public:
     std::vector<const TaskBody*> bodies() const;
     std::vector<std::string> kinds() const { return {collect_.name, steps_.name}; }
     RowTable& table() { return pushes_.table(); }
-    /// Null: no solid may lie on a convex obstacle; nor by xpbd.
+    /// Null: nothing may lie on a convex obstacle as a whole.
     RestingBodies* resting() { return resting_.get(); }
 
 private:

@@ -63,6 +63,7 @@ public:
         narrow_ = NarrowTask::of(model,
                                  {.iterates = {model.positions.get()},
                                   .targets = targets_.get(),
+                                  .pressing = momentum_ ? momentum_->pressing() : nullptr,
                                   .contact = contact_.get()},
                                  static_cast<int>(kinds_.size()));
         if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds_));
@@ -95,7 +96,11 @@ public:
         return tables;
     }
     std::vector<BufferStorage*> state() override {
-        return contact_ ? contact_->state() : std::vector<BufferStorage*>{};
+        if (!contact_) return {};
+        auto buffers = contact_->state();
+        if (RestingBodies* resting = momentum_ ? momentum_->resting() : nullptr)
+            buffers.push_back(&resting->slips());
+        return buffers;
     }
     ContactResponse* contact() override { return contact_.get(); }
 

@@ -207,7 +207,7 @@ void reactions_case(KernelCase& c) {
                       c.random.integer(0, 1), c.items, kObstacles, kInstance);
 }
 
-/// Of solids' vertices and of others; rows have contacts, and room for few more entries.
+/// Of what lies there and of others; rows have contacts, and room for few more entries.
 void collect_resting_case(KernelCase& c) {
     auto& obstacles = add_obstacles(c);
     constexpr int kRows = 3;
@@ -215,6 +215,7 @@ void collect_resting_case(KernelCase& c) {
     auto& seen = response::add_points(c, "seen_targets", c.items);
     auto& starts = response::add_points(c, "starts", c.items);
     auto& kept = response::add_points(c, "kept", c.items);
+    auto& borne = add_flags(c, "borne");
     auto& solid = add_flags(c, "solid");
     auto& hardness = c.add<float>("hardness", c.items);
     for (float& k : hardness.span()) k = c.random.real(1.0f, 1e4f);
@@ -238,7 +239,7 @@ void collect_resting_case(KernelCase& c) {
     auto& presses = c.add<float>("presses", rows.entries);
     c.launch =
         launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen, starts,
-               kept, obstacles, solid, hardness, members, shares, column_rows, rows.rows,
+               kept, obstacles, borne, solid, hardness, members, shares, column_rows, rows.rows,
                rows.counts, needs, codes, sides, slips, forces, points, other_points, presses,
                c.items, response::kBodies, kObstacles, 0.1f, 1e4f, kInstance);
 }

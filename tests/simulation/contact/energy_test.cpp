@@ -154,8 +154,8 @@ TEST_P(ContactEnergyOf, ShorterStepsStoreMore) {
     EXPECT_TRUE(run.troubles().empty());
 }
 
-/// Five sheets that fall on a plane together are too much for a few iterations of xpbd: contacts
-/// store many times the energy that is there, while edges look as if nothing were the matter.
+/// Five sheets that fall on a plane together are too much for a few iterations of xpbd where contacts
+/// are made a hundred times as hard: these store many times the energy that is there.
 TEST(Contact, EnergyFromNowhereInContactsIsTold) {
     const auto sheet = [](int number) {
         return fmt::format(R"(
@@ -173,13 +173,14 @@ bend = {{ stiffness = 1.0e-4 }}
 [scene]
 frames = 4
 dt = 0.016666667
-substeps = 8
+substeps = 2
 [solver]
 method = "xpbd"
 iterations = 2
 [contact]
 thickness = 0.01
 friction = 0.3
+stiffness = 100
 [[obstacle]]
 shape = "plane"
 point = [0.0, 0.0, 0.0]

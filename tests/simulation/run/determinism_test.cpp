@@ -60,7 +60,7 @@ const TestScene kScenes[] = {
     {"NewtonSewn", kSewn, Method::kNewton, "6d8f26ed3a5fde89011b730bc461f1f6"},
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},
-    {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "e3b5443f5fafb11fe112237e2523c804"},
+    {"XpbdNarrow", kNarrowTouching, Method::kXpbd, "882048db2780f08e4637ab15e2aea037"},
     {"VbdNarrow", kNarrow, Method::kVbd, "ac85ef9ce11d060d516f87e9b3feff80"},
     {"SosdNarrow", kNarrow, Method::kSosd, "d2b1b54feaaff2c15ec2b396aeee6760"},
     {"JpgdNarrow", kNarrowTouching, Method::kJpgd, "8b480f6f7cbaa2b5cbb57ccc3b113043"},
