@@ -15,6 +15,7 @@
 #include "kernels/descent/rows.h"
 #include "kernels/in_order.h"
 #include "kernels/newton/blocks.h"
+#include "kernels/newton/holds.h"
 
 // The dot products of a strip are summed in so many columns.
 #define WEFT_DOT_COLUMNS 32
@@ -38,14 +39,15 @@ WEFT_INLINE sym3_factors load_factors(WEFT_GLOBAL const float* factors, item i, 
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]
 /// targets     [vertices] xyz: x~ [m]
 /// sums        [9 * vertices] g and H of all elements (descent/rows.h)
+/// holds       [vertices] what holds each (holds.h); not read unless has_holds, as below
 /// factors     written, see load_factors
 /// residuals   written: r [N], w = 0
 /// searches, applied, moves  written: zeros for p, s and d
 WEFT_KERNEL(begin_conjugate_gradients, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const float* sums,
-            WEFT_GLOBAL float* factors, WEFT_GLOBAL float4* residuals, WEFT_GLOBAL float* searches,
-            WEFT_GLOBAL float* applied, WEFT_GLOBAL float* moves, int vertex_count,
-            float inverse_h2) {
+            WEFT_GLOBAL const float4* holds, WEFT_GLOBAL float* factors,
+            WEFT_GLOBAL float4* residuals, WEFT_GLOBAL float* searches, WEFT_GLOBAL float* applied,
+            WEFT_GLOBAL float* moves, int vertex_count, int has_holds, float inverse_h2) {
     const real zero = splat(0.0f);
     const real3 nothing = make3(zero, zero, zero);
     const real4 x = load4(positions, i);
@@ -59,8 +61,9 @@ WEFT_KERNEL(begin_conjugate_gradients, WEFT_GLOBAL const float4* positions,
     store(factors, column(i, vertex_count, 3), f.inverse_x * free);
     store(factors, column(i, vertex_count, 4), f.inverse_y * free);
     store(factors, column(i, vertex_count, 5), f.inverse_z * free);
-    const real3 force =
+    real3 force =
         subtract(scale(subtract(xyz(load4(targets, i)), xyz(x)), inertia), sum.gradient);
+    if (has_holds) force = held_back(force, load4(holds, i));
     store4(residuals, i, with_w(scale(force, free), zero));
     store_product(searches, i, vertex_count, nothing);
     store_product(applied, i, vertex_count, nothing);
@@ -73,11 +76,14 @@ WEFT_KERNEL(begin_conjugate_gradients, WEFT_GLOBAL const float4* positions,
 /// preconditioned  [vertices] written: u, w = 0
 WEFT_KERNEL(precondition, WEFT_GLOBAL const float4* residuals, WEFT_GLOBAL const float* factors,
             WEFT_GLOBAL const float4* corrections, WEFT_GLOBAL const int* aggregates,
-            WEFT_GLOBAL float4* preconditioned, int vertex_count) {
+            WEFT_GLOBAL const float4* holds, WEFT_GLOBAL float4* preconditioned, int vertex_count,
+            int has_holds) {
     const real3 own =
         solve_factored(load_factors(factors, i, vertex_count), xyz(load4(residuals, i)));
     const real3 coarse = xyz(gather4(corrections, load_index(aggregates, i)));
-    store4(preconditioned, i, with_w(add(own, coarse), splat(0.0f)));
+    real3 u = add(own, coarse);
+    if (has_holds) u = held_back(u, load4(holds, i));
+    store4(preconditioned, i, with_w(u, splat(0.0f)));
 }
 
 /// Adds the inertia to products = H u, and writes each vertex' part of both dot products.
@@ -86,13 +92,15 @@ WEFT_KERNEL(precondition, WEFT_GLOBAL const float4* residuals, WEFT_GLOBAL const
 /// terms     written: r . u, and `delta_offset` behind it w . u
 WEFT_KERNEL(finish_product, WEFT_GLOBAL const float4* positions,
             WEFT_GLOBAL const float4* residuals, WEFT_GLOBAL const float4* preconditioned,
-            WEFT_GLOBAL float* products, WEFT_GLOBAL const int* places, WEFT_GLOBAL float* terms,
-            int vertex_count, int delta_offset, float inverse_h2) {
+            WEFT_GLOBAL const float4* holds, WEFT_GLOBAL float* products,
+            WEFT_GLOBAL const int* places, WEFT_GLOBAL float* terms, int vertex_count,
+            int delta_offset, int has_holds, float inverse_h2) {
     const real inverse_mass = load4(positions, i).w;
     const real inertia =
         splat(inverse_h2) / (inverse_mass > splat(0.0f) ? inverse_mass : splat(1.0f));
     const real3 u = xyz(load4(preconditioned, i));
-    const real3 w = add_scaled(load_product(products, i, vertex_count, 0), u, inertia);
+    real3 w = add_scaled(load_product(products, i, vertex_count, 0), u, inertia);
+    if (has_holds) w = held_back(w, load4(holds, i));
     store_product(products, i, vertex_count, w);
     const item gamma = {places[i.first], i.count};
     const item delta = {places[i.first] + delta_offset, i.count};

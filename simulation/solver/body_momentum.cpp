@@ -32,7 +32,7 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_, held);
     if (free_bodies_ && (model.obstacles || touching_))
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
-    if ((free_bodies_ && model.obstacles) || cloth_)
+    if (model.obstacles)
         starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
     if (resting()) pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
 }

@@ -34,7 +34,7 @@ public:
     /// What that needs of vertices [first, last).
     void add_start_accesses(Step::Adding& task, int first, int last);
 
-    /// x~ before obstacles have pushed; null: they push nothing that is free.
+    /// x~ before obstacles have pushed; null: there are none.
     Buffer<float4>* starts() { return starts_.get(); }
     /// What obstacles press, of a substep (kernels/obstacles/contact.h); null: nobody asks.
     Buffer<float4>* pressing() { return pressing_.get(); }
@@ -88,7 +88,7 @@ private:
     std::unique_ptr<TouchingBodies> touching_;  ///< null: nothing may touch a free body
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or those
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
-    std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: nobody asks
+    std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: no obstacles
     std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no bodies that rest
     TaskBody sums_;                             ///< empty: no free bodies
 };

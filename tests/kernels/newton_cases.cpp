@@ -182,6 +182,17 @@ void multiply_scalar_case(KernelCase& c) {
                       blocks, products, c.items, c.items, c.items % 2);
 }
 
+/// Of some vertices along a normal, of some in all directions.
+Buffer<float4>& add_holds(KernelCase& c) {
+    auto& holds = c.add<float4>("holds", c.items);
+    for (float4& hold : holds.span()) {
+        const auto degree = static_cast<float>(c.random.integer(0, 2));
+        hold = {0.6f, 0.0f, -0.8f, degree};
+        if (degree == 0.0f) hold = {};
+    }
+    return holds;
+}
+
 void begin_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& targets = add_points(c, "targets", c.items);
@@ -191,6 +202,7 @@ void begin_case(KernelCase& c) {
             sums[at(i + diagonal * c.items)] = c.flavour == Flavour::kRandom ? 3.0f : 0.0f;
         }
     }
+    auto& holds = add_holds(c);
     auto& factors = add_reals(c, "factors", 6 * c.items, 1.0f, 2.0f);
     auto& residuals = c.add<float4>("residuals", c.items);
     for (float4& r : residuals.span()) r = {7.0f, 7.0f, 7.0f, 7.0f};
@@ -198,7 +210,8 @@ void begin_case(KernelCase& c) {
     auto& applied = add_reals(c, "applied", 3 * c.items, 1.0f, 2.0f);
     auto& moves = add_reals(c, "moves", 3 * c.items, 1.0f, 2.0f);
     c.launch = launch(kernels::begin_conjugate_gradients, c.segments, positions, targets, sums,
-                      factors, residuals, searches, applied, moves, c.items, 1e2f);
+                      holds, factors, residuals, searches, applied, moves, c.items,
+                      c.random.integer(0, 1), 1e2f);
 }
 
 void precondition_case(KernelCase& c) {
@@ -206,22 +219,25 @@ void precondition_case(KernelCase& c) {
     auto& factors = add_reals(c, "factors", 6 * c.items, -1.0f, 1.0f);
     auto& corrections = add_points(c, "corrections", 5);
     auto& aggregates = add_indices(c, "aggregates", c.items, 5);
+    auto& holds = add_holds(c);
     auto& preconditioned = c.add<float4>("preconditioned", c.items);
     for (float4& u : preconditioned.span()) u = {7.0f, 7.0f, 7.0f, 7.0f};
     c.launch = launch(kernels::precondition, c.segments, residuals, factors, corrections,
-                      aggregates, preconditioned, c.items);
+                      aggregates, holds, preconditioned, c.items, c.random.integer(0, 1));
 }
 
 void finish_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& residuals = add_points(c, "residuals", c.items);
     auto& preconditioned = add_points(c, "preconditioned", c.items);
+    auto& holds = add_holds(c);
     auto& products = add_reals(c, "products", 3 * c.items, -1.0f, 1.0f);
     auto& places = c.add<int>("places", c.items);
     for (int i = 0; i < c.items; ++i) places[at(i)] = i + 3;
     auto& terms = add_reals(c, "terms", 2 * c.items + 10, 1.0f, 2.0f);
     c.launch = launch(kernels::finish_product, c.segments, positions, residuals, preconditioned,
-                      products, places, terms, c.items, c.items + 5, 1e2f);
+                      holds, products, places, terms, c.items, c.items + 5,
+                      c.random.integer(0, 1), 1e2f);
 }
 
 void dot_columns_case(KernelCase& c) {

@@ -3,6 +3,7 @@
 
 #include "kernels/contact/resting.h"
 #include "kernels/descent/cloth_reactions.h"
+#include "kernels/newton/holds.h"
 #include "kernels/obstacles/inside.h"
 #include "kernels/obstacles/narrow.h"
 
@@ -174,11 +175,13 @@ void inside_case(KernelCase& c) {
                       cut, depths, insides, kObstacles, kInstance);
 }
 
-Buffer<float>& add_flags(KernelCase& c, const char* name) {
-    auto& flags = c.add<float>(name, c.items);
+Buffer<float>& add_flags(KernelCase& c, const char* name, int count) {
+    auto& flags = c.add<float>(name, count);
     for (float& flag : flags.span()) flag = static_cast<float>(c.random.integer(0, 1));
     return flags;
 }
+
+Buffer<float>& add_flags(KernelCase& c, const char* name) { return add_flags(c, name, c.items); }
 
 /// Of cloth and of others, some of it pushed.
 void reactions_case(KernelCase& c) {
@@ -205,6 +208,23 @@ void reactions_case(KernelCase& c) {
                       targets, cloth, vertices, sums, obstacles, planes, rows.rows, rows.counts,
                       corner0, corner1, corner2, corner3, c.items, 1e4f, c.random.integer(0, 1),
                       c.random.integer(0, 1), c.items, kObstacles, kInstance);
+}
+
+/// Of solids and of others, some of it pushed, some cut, where a step has been taken back or not.
+void holds_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    const Moved moved = add_moved(c);
+    auto& starts = response::add_points(c, "starts", c.items);
+    auto& targets = add_targets(c);
+    auto& sums = c.add<float>("sums", 9 * c.items);
+    for (float& sum : sums.span()) sum = c.random.real(-1e3f, 1e3f);
+    auto& solid = add_flags(c, "solid");
+    auto& cut = response::add_indices(c, "cut", c.items, 3);
+    auto& control = add_flags(c, "control", WEFT_CONTROL_SIZE);
+    auto& holds = c.add<float4>("holds", c.items);
+    c.launch = launch(kernels::find_holds, c.segments, moved.positions, moved.previous, starts,
+                      targets, sums, solid, cut, control, obstacles, holds, c.items,
+                      c.random.integer(0, 1), kObstacles, 1e4f, kInstance);
 }
 
 /// Of what lies there and of others; rows have contacts, and room for few more entries.
@@ -269,6 +289,7 @@ void see_targets_case(KernelCase& c) {
 
 const bool added = add_case("find_obstacle_planes", planes_case) &&
                    add_case("find_inside", inside_case) && add_case("lead_cloth", reactions_case) &&
+                   add_case("find_holds", holds_case) &&
                    add_case("see_targets", see_targets_case) &&
                    add_case("collect_resting", collect_resting_case) &&
                    add_case("keep_resting_slips", keep_resting_slips_case);

@@ -20,12 +20,13 @@ void append(std::vector<Launch>& launches, std::vector<Launch> more) {
 }  // namespace
 
 ConjugateGradients::ConjugateGradients(Model& model, DescentSubstep& substep,
-                                       const VertexGraph& graph)
+                                       const VertexGraph& graph, Buffer<float>& control)
     : model_(model),
       substep_(substep),
       items_(model.strips),
       sums_("newton.sums", 9 * model.positions->count()),
       hessian_(model, items_),
+      holds_(NewtonHolds::of(model, substep, control)),
       coarse_(model, make_aggregates(model, graph)),
       halo_(model),
       before_("newton.before", model.positions->count()),
@@ -97,27 +98,29 @@ std::vector<Launch> ConjugateGradients::linearise() {
             substep_.contact()->gather_at(kInnerPhase, *model_.positions, items_, sums_));
         launches.push_back(contacts_->couple());
     }
+    if (holds_) launches.push_back(holds_->find(sums_));
     launches.push_back(launch(kernels::begin_conjugate_gradients, model_.vertices(),
-                              *model_.positions, substep_.targets(), sums_, factors_, residuals_,
-                              searches_, applied_, moves_, model_.vertex_count(),
-                              static_cast<float>(1.0 / (model_.h * model_.h))));
+                              *model_.positions, substep_.targets(), sums_, holds(), factors_,
+                              residuals_, searches_, applied_, moves_, model_.vertex_count(),
+                              have_holds(), static_cast<float>(1.0 / (model_.h * model_.h))));
     launches.push_back(launch(kernels::begin_steps, by_strip_, scalars_));
     launches.push_back(coarse_.restrict(residuals_));
     return launches;
 }
 
 std::vector<Launch> ConjugateGradients::correct() {
-    return {coarse_.correct(), launch(kernels::precondition, model_.vertices(), residuals_,
-                                      factors_, coarse_.corrections(), coarse_.aggregate_of(),
-                                      preconditioned_, model_.vertex_count())};
+    return {coarse_.correct(),
+            launch(kernels::precondition, model_.vertices(), residuals_, factors_,
+                   coarse_.corrections(), coarse_.aggregate_of(), holds(), preconditioned_,
+                   model_.vertex_count(), have_holds())};
 }
 
 std::vector<Launch> ConjugateGradients::product() {
     auto launches = hessian_.multiply(preconditioned_, products_);
     if (contacts_) launches.push_back(contacts_->multiply(preconditioned_, products_));
     launches.push_back(launch(kernels::finish_product, model_.vertices(), *model_.positions,
-                              residuals_, preconditioned_, products_, places_, *terms_,
-                              model_.vertex_count(), delta_offset_,
+                              residuals_, preconditioned_, holds(), products_, places_, *terms_,
+                              model_.vertex_count(), delta_offset_, have_holds(),
                               static_cast<float>(1.0 / (model_.h * model_.h))));
     launches.push_back(launch(kernels::add_terms, columns_by_strip_, *terms_, columns_,
                               column_sums_, kDotColumns));
@@ -159,6 +162,7 @@ void ConjugateGradients::add_linearise_accesses(Step::Adding& task, int first_st
     const auto [first, last] = substep_.vertices(first_strip, end_strip);
     const auto [halo_begin, halo_end] = around(first, last);
     if (contacts_) contacts_->add_couple_accesses(task, first_strip, end_strip);
+    if (holds_) holds_->add_find_accesses(task, first, last);
     task.reads(*model_.positions, halo_begin, halo_end)
         .reads(before_, halo_begin, halo_end)
         .reads(after_, halo_begin, halo_end)
@@ -173,6 +177,7 @@ void ConjugateGradients::add_linearise_accesses(Step::Adding& task, int first_st
 void ConjugateGradients::add_correct_accesses(Step::Adding& task, int first_strip, int end_strip) {
     const auto [first, last] = substep_.vertices(first_strip, end_strip);
     task.reads(residuals_, first, last).updates(preconditioned_, first, last);
+    if (holds_) task.reads(holds_->holds(), first, last);
     add_columns(task, factors_, model_.vertex_count(), 6, first, last, false);
     coarse_.add_correct_accesses(task, first_strip, end_strip);
 }
@@ -181,6 +186,7 @@ void ConjugateGradients::add_product_accesses(Step::Adding& task, int first_stri
     const auto [first, last] = substep_.vertices(first_strip, end_strip);
     const auto [halo_begin, halo_end] = around(first, last);
     if (contacts_) contacts_->add_multiply_accesses(task, first_strip, end_strip);
+    if (holds_) task.reads(holds_->holds(), first, last);
     task.reads(*model_.positions, first, last)
         .reads(residuals_, first, last)
         .reads(preconditioned_, halo_begin, halo_end)

@@ -9,6 +9,7 @@
 #include "simulation/solver/newton/coarse_space.h"
 #include "simulation/solver/newton/contact_hessian.h"
 #include "simulation/solver/newton/hessian.h"
+#include "simulation/solver/newton/holds.h"
 
 namespace weft {
 
@@ -20,8 +21,9 @@ namespace weft {
 ///   advance:  alpha and beta from those of all strips, and the vectors
 class ConjugateGradients {
 public:
-    /// graph: of all elements of the model
-    ConjugateGradients(Model& model, DescentSubstep& substep, const VertexGraph& graph);
+    /// graph: of all elements of the model. control: of the iterations (kernels/newton/control.h)
+    ConjugateGradients(Model& model, DescentSubstep& substep, const VertexGraph& graph,
+                       Buffer<float>& control);
 
     /// Where the next system is made. Before the first one, `before` and `after` are to be x_t.
     LinearisedAt linearised_at() { return {*model_.positions, before_, after_}; }
@@ -58,6 +60,9 @@ private:
     static constexpr int kDotColumns = 32;
     void place_terms();
     void add_vectors(Step::Adding& task, int first, int last);
+    /// [vertices] not read without holds
+    Buffer<float4>& holds() { return holds_ ? holds_->holds() : residuals_; }
+    int have_holds() const { return holds_ ? 1 : 0; }
 
     Model& model_;
     DescentSubstep& substep_;
@@ -65,6 +70,7 @@ private:
     Buffer<float> sums_;  ///< [9 * vertices] see kernels/descent/rows.h
     Hessian hessian_;
     std::unique_ptr<ContactHessian> contacts_;  ///< null: none
+    std::unique_ptr<NewtonHolds> holds_;        ///< null: nothing holds but pins
     CoarseSpace coarse_;
     Halo halo_;
     Buffer<float4> before_, after_;

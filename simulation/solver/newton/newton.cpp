@@ -51,11 +51,11 @@ public:
           iterations_(model.scene.solver.iterations),
           substep_(model, /*solves_vertices=*/false, kKinds),
           contact_(substep_.contact()),
-          gradients_(model, substep_, graph),
+          control_("control", WEFT_CONTROL_SIZE),
+          gradients_(model, substep_, graph, control_),
           smoother_(model, substep_, graph, {kSeams, kStrips}),
           energy_(model, substep_.targets(), contact_ ? &contact_->energy() : nullptr),
           kept_("positions.kept", model.positions->count()),
-          control_("control", WEFT_CONTROL_SIZE),
           first_strip_("first_strip", static_cast<std::size_t>(model.strips.count()) + 1) {
         std::fill(first_strip_.data() + 1, first_strip_.data() + first_strip_.count(), 1);
         if (model.obstacles) {
@@ -372,13 +372,13 @@ private:
     int iterations_;
     DescentSubstep substep_;
     ContactResponse* contact_;  ///< null: none
+    Buffer<float> control_;
     ConjugateGradients gradients_;
     NewtonSmoother smoother_;
     EnergySum energy_;
     Buffer<float4> kept_;
     std::unique_ptr<Buffer<float4>> kept_targets_;  ///< null: no obstacles, nothing moves targets
-    Buffer<float> control_;
-    Buffer<int> first_strip_;  ///< one item, in strip 0
+    Buffer<int> first_strip_;                       ///< one item, in strip 0
     TaskBody predict_, linearise_, couple_, factor_, invert_, correct_, product_, advance_;
     TaskBody move_, energy_body_, decide_, revert_, velocities_;
     std::vector<Region> regions_;  ///< of the step that is made

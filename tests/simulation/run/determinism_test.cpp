@@ -56,7 +56,7 @@ const TestScene kScenes[] = {
     {"JpgdSewn", kSewn, Method::kJpgd, "59f113ec9c72a6ff1a5161a0fbd9d3f8"},
     {"JpgdSpringsOnly", kSpringsOnly, Method::kJpgd, "b5e1dd06c0d5d8291ed21db2e9ebf69d"},
     {"NewtonEverything", kEverything, Method::kNewton, "825fd6e0f559a54e0fb74545dd6161f2"},
-    {"NewtonSolids", kSolids, Method::kNewton, "3aada505da74f5c468305b785a47ff3a"},
+    {"NewtonSolids", kSolids, Method::kNewton, "0542a07ae010ffcbc0e31290229693b9"},
     {"NewtonSewn", kSewn, Method::kNewton, "6d8f26ed3a5fde89011b730bc461f1f6"},
     {"NewtonSpringsOnly", kSpringsOnly, Method::kNewton, "8a79f65da732063202377187252153fa"},
     {"NewtonWoven", kWoven, Method::kNewton, "638e80b7dffdd4015237f6cfcb416a99"},

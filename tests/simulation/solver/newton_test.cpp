@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/newton/control.h"
 #include "simulation/families/convert.h"
 #include "simulation/scene/read_scene.h"
 #include "simulation/solver/newton/conjugate_gradients.h"
@@ -27,7 +28,8 @@ public:
     explicit System(const std::string& text)
         : model(parse_scene(text, "test.toml"), warnings),
           substep(model, /*solves_vertices=*/false, 0),
-          cg(model, substep, VertexGraph(model.vertex_count(), model.stencils())) {}
+          control("control", WEFT_CONTROL_SIZE),
+          cg(model, substep, VertexGraph(model.vertex_count(), model.stencils()), control) {}
 
     void crumple(float size) {
         Random random(7);
@@ -90,6 +92,7 @@ public:
     Warnings warnings;
     Model model;
     DescentSubstep substep;
+    Buffer<float> control;
     ConjugateGradients cg;
 
 private:
