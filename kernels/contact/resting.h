@@ -13,8 +13,8 @@
 //
 // where `known` is what the obstacle is known to bear there (bodies/reactions.h), none before the
 // first iteration; the body lacks that no more, so what counts is how much more or less it gets.
-// It rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h), and as
-// hard as what bears the body says (bearings.h).
+// It rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h), and
+// as hard as what bears the body says (bearings.h).
 //
 // Cloth in contact lies on obstacles likewise. Where a sheet comes to lie on another one, a round
 // that knows of their contact alone leads the lower one into what bears it by as much as the upper
@@ -88,13 +88,13 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float* borne,
                    WEFT_GLOBAL const float* solid, WEFT_GLOBAL const float* hardness,
                    WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
-                   WEFT_GLOBAL const int* column_rows,
-                   WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
-                   WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
-                   WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
-                   WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
-                   WEFT_GLOBAL float* presses, int column_count, int body_count, int obstacle_count,
-                   float reach, float inverse_h2, int instance) {
+                   WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* push_rows,
+                   WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs,
+                   WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
+                   WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
+                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float* presses, int column_count,
+                   int body_count, int obstacle_count, float reach, float inverse_h2,
+                   int instance) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole push_start = load_whole(push_rows, i);

@@ -61,8 +61,7 @@ WEFT_KERNEL(begin_conjugate_gradients, WEFT_GLOBAL const float4* positions,
     store(factors, column(i, vertex_count, 3), f.inverse_x * free);
     store(factors, column(i, vertex_count, 4), f.inverse_y * free);
     store(factors, column(i, vertex_count, 5), f.inverse_z * free);
-    real3 force =
-        subtract(scale(subtract(xyz(load4(targets, i)), xyz(x)), inertia), sum.gradient);
+    real3 force = subtract(scale(subtract(xyz(load4(targets, i)), xyz(x)), inertia), sum.gradient);
     if (has_holds) force = held_back(force, load4(holds, i));
     store4(residuals, i, with_w(scale(force, free), zero));
     store_product(searches, i, vertex_count, nothing);

@@ -22,6 +22,7 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     : model_(model),
       contact_(contact),
       targets_(targets),
+      has_multipliers_(multipliers != nullptr),
       cloth_(solves_vertices ? ClothReactions::of(model, contact) : nullptr),
       free_bodies_(FreeBodies::of(model)),
       sums_{"momentum", first_kind, {}} {
@@ -32,8 +33,7 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_, held);
     if (free_bodies_ && (model.obstacles || touching_))
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
-    if (model.obstacles)
-        starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
+    if (model.obstacles) starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
     if (resting()) pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
 }
 
@@ -99,12 +99,12 @@ void BodyMomentum::add_first_sums(Step& step, const std::vector<Region>& regions
     touching_->add_first_rounds(step, sums_, regions);
 }
 
-void BodyMomentum::add_lead(std::vector<Launch>& launches) {
+void BodyMomentum::add_lead(std::vector<Launch>& launches, float less) {
     if (!touching_ || !touching_->may_be_led()) return;
-    launches.push_back(touching_->lead());
+    launches.push_back(touching_->lead(less));
     if (!contact_) return;
     contact_->add_truncation(launches, *model_.positions);
-    contact_->add_start_snapshots(launches, *model_.positions);
+    if (!has_multipliers_) contact_->add_start_snapshots(launches, *model_.positions);
 }
 
 void BodyMomentum::add_lead_accesses(Step::Adding& task, StripRange strips) {
@@ -113,7 +113,7 @@ void BodyMomentum::add_lead_accesses(Step::Adding& task, StripRange strips) {
                  model_.vertices().item(strips.end));
     if (!contact_) return;
     contact_->add_truncation_accesses(task, strips);
-    contact_->add_start_snapshot_accesses(task, strips);
+    if (!has_multipliers_) contact_->add_start_snapshot_accesses(task, strips);
 }
 
 /// A motion may lead into what pushes.

@@ -62,8 +62,9 @@ public:
     void add_sums(Step& step, const std::vector<Region>& regions, int iteration);
 
     /// Leads bodies as wholes before the first iteration, too, where there is reason to; contacts
-    /// have the last word. Behind look_at(); nothing otherwise.
-    void add_lead(std::vector<Launch>& launches);
+    /// have the last word. Behind look_at(); nothing otherwise. (xpbd shows by itself where that
+    /// has led them.) less: as TouchingBodies::lead()'s
+    void add_lead(std::vector<Launch>& launches, float less = 0.0f);
     /// Where that is done: adds up how far, from the positions that contacts were found at.
     void add_first_sums(Step& step, const std::vector<Region>& regions);
     /// What leading them needs of its own strips.
@@ -82,6 +83,7 @@ private:
     Model& model_;
     ContactResponse* contact_;
     Buffer<float4>& targets_;
+    bool has_multipliers_;
     Buffer<float4>* positions_ = nullptr;
     std::unique_ptr<ClothReactions> cloth_;     ///< null: none
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none

@@ -21,8 +21,8 @@ struct ObstaclePushes {
 /// cloth is nothing that such a round would lead it into.
 class RestingBodies {
 public:
-    /// Null: there are no convex obstacles, or no such bodies. creep: of what sticks, per substep [m].
-    /// model must outlive this.
+    /// Null: there are no convex obstacles, or no such bodies. creep: of what sticks, per substep
+    /// [m]. model must outlive this.
     static std::unique_ptr<RestingBodies> of(Model& model, const FreeBodies& bodies, double creep);
     RestingBodies(Model& model, const FreeBodies& bodies, double creep);
 

@@ -265,13 +265,13 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
 
 /// Only solids start from what has held them up as wholes: what bears a sheet is not alike all
 /// over.
-Launch TouchingBodies::lead() {
+Launch TouchingBodies::lead(float less) {
     first_collect_.launches = collect(*model_.positions);
     for (std::size_t body = 0; body < first_run_.count(); ++body) {
         are_led_[body] = solids_->stiffness()[body] > 0.0f ? 1.0f : 0.0f;
     }
     return launch(kernels::lead_bodies, model_.vertices(), *model_.positions, motions_, strains_,
-                  moments_.moments(), body_of_, body_count());
+                  moments_.moments(), body_of_, less, body_count());
 }
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {

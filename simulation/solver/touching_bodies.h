@@ -40,8 +40,8 @@ public:
     /// others, or convex obstacles.
     bool may_be_led() const { return solids_ && (body_count() > 1 || resting_); }
     /// From now on they are, by what moves the vertices of a region's strips behind
-    /// add_first_rounds(). Behind sum().
-    Launch lead();
+    /// add_first_rounds(), by so much less far [m]. Behind sum().
+    Launch lead(float less);
     /// body: as add_rounds'
     void add_first_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions);
     /// Where they have got to is what that reads, as do the sums.

@@ -49,8 +49,8 @@ public:
         if (contact_) {
             kinds_ = contact_->kinds();
             projection_ = std::make_unique<ContactProjection>(model, *contact_);
-            find_bodies();
         }
+        if (contact_ || (model.obstacles && has_moving_solids(model))) find_bodies();
         for (const auto& family : model.families) add_multipliers(*family);
         make_predict();
         if (tasks == XpbdTasks::kWhole)
@@ -60,12 +60,13 @@ public:
         if (contact_) make_push();
         if (has_rounds_) make_round();
         make_velocities();
-        narrow_ = NarrowTask::of(model,
-                                 {.iterates = {model.positions.get()},
-                                  .targets = targets_.get(),
-                                  .pressing = momentum_ ? momentum_->pressing() : nullptr,
-                                  .contact = contact_.get()},
-                                 static_cast<int>(kinds_.size()));
+        narrow_ =
+            NarrowTask::of(model,
+                           {.iterates = {model.positions.get()},
+                            .targets = contact_ ? targets_.get() : nullptr,
+                            .pressing = contact_ && momentum_ ? momentum_->pressing() : nullptr,
+                            .contact = contact_.get()},
+                           static_cast<int>(kinds_.size()));
         if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds_));
     }
 
@@ -79,25 +80,26 @@ public:
         }
         list.push_back(&velocities_);
         if (narrow_) narrow_->list_bodies(list);
+        if (momentum_) momentum_->list_bodies(list);
+        if (!lead_.launches.empty()) list.push_back(&lead_);
         if (!contact_) return list;
         list.push_back(&push_);
         if (has_rounds_) list.insert(list.end(), {&show_, &push_again_});
         for (const TaskBody* body : contact_->bodies()) list.push_back(body);
-        if (momentum_) momentum_->list_bodies(list);
         return list;
     }
 
     std::vector<std::string> kinds() const override { return kinds_; }
 
     std::vector<RowTable*> tables() override {
-        if (!contact_) return {};
-        auto tables = contact_->tables();
+        std::vector<RowTable*> tables;
+        if (contact_) tables = contact_->tables();
         if (momentum_) std::ranges::copy(momentum_->tables(), std::back_inserter(tables));
         return tables;
     }
     std::vector<BufferStorage*> state() override {
-        if (!contact_) return {};
-        auto buffers = contact_->state();
+        std::vector<BufferStorage*> buffers;
+        if (contact_) buffers = contact_->state();
         if (RestingBodies* resting = momentum_ ? momentum_->resting() : nullptr)
             buffers.push_back(&resting->slips());
         return buffers;
@@ -107,7 +109,7 @@ public:
     std::vector<Buffer<float4>*> iterate() override {
         std::vector<Buffer<float4>*> buffers{model_.positions.get()};
         if (contact_) buffers.push_back(&contact_->snapshots());
-        if (momentum_ && model_.obstacles) buffers.push_back(targets_.get());
+        if (contact_ && momentum_ && model_.obstacles) buffers.push_back(targets_.get());
         return buffers;
     }
 
@@ -130,6 +132,7 @@ public:
         Step step;
         for (const Region& region : regions) add_predict(step, region);
         if (contact_) contact_->add_detection(step, regions);
+        add_lead(step, regions);
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
@@ -138,7 +141,7 @@ public:
             for (int k = 0; k < kMoreRounds; ++k) add_round(step, regions, ++last);
         }
         if (narrow_) narrow_->add_last(step, regions, last);
-        if (momentum_) momentum_->add_sums(step, regions, last);
+        if (contact_ && momentum_) momentum_->add_sums(step, regions, last);
         for (const Region& region : regions) add_velocities(step, last, region);
         if (contact_) contact_->energy().add(step, regions, last);
         step.seal();
@@ -147,19 +150,33 @@ public:
 
 private:
     /// Projections keep momentum, but what planes take back is lost, and a few iterations let stiff
-    /// bodies sink into what bears them.
+    /// bodies sink into what bears them. And solids that land are led out of obstacles as wholes
+    /// before the first iteration; without contact that is all.
     void find_bodies() {
         targets_ = std::make_unique<Buffer<float4>>("targets", model_.positions->count());
         momentum_ = std::make_unique<BodyMomentum>(
-            model_, contact_.get(), &projection_->multipliers(), *targets_,
+            model_, contact_.get(), projection_ ? &projection_->multipliers() : nullptr, *targets_,
             /*solves_vertices=*/false, static_cast<int>(kinds_.size()));
-        if (momentum_->has_bodies()) {
+        if (momentum_->has_bodies() && (contact_ || momentum_->resting())) {
             momentum_->look_at(*model_.positions);
             std::ranges::copy(momentum_->kinds(), std::back_inserter(kinds_));
+            lead_ = {"lead", static_cast<int>(kinds_.size()), {}};
+            if (momentum_->resting()) momentum_->add_lead(lead_.launches, fall());
+            if (!lead_.launches.empty()) kinds_.push_back(lead_.name);
         } else {
             momentum_.reset();
             targets_.reset();
         }
+    }
+
+    /// What gravity does in a substep, and as much again [m]: what lies would come as deep. That is
+    /// left to projections, as they rub by how deep it is.
+    float fall() const {
+        double most = length(model_.scene.gravity);
+        for (const GravityKey& key : model_.scene.gravity_keys) {
+            most = std::max(most, length(key.gravity));
+        }
+        return static_cast<float>(2.0 * most * model_.h * model_.h);
     }
 
     TaskBody new_kind(const std::string& name) {
@@ -201,7 +218,8 @@ private:
     }
 
     void add_obstacles(TaskBody& body) {
-        if (momentum_) return momentum_->add_obstacles(body.launches, *model_.positions);
+        if (contact_ && momentum_)
+            return momentum_->add_obstacles(body.launches, *model_.positions);
         if (!model_.obstacles) return;
         model_.obstacles->add_launches(body.launches, model_.vertices(), *model_.positions,
                                        *model_.previous, {});
@@ -253,8 +271,18 @@ private:
             update(kernels::update_damped_velocities);
         else
             update(kernels::update_velocities);
-        if (momentum_) momentum_->add_moves(velocities_.launches);
+        if (momentum_) end_bodies();
         if (contact_) contact_->add_count(velocities_.launches);
+    }
+
+    void end_bodies() {
+        if (contact_) return momentum_->add_moves(velocities_.launches);
+        velocities_.launches.push_back(momentum_->resting()->keep_slips());
+    }
+    void add_end_accesses(Step::Adding& task, const Region& region) {
+        if (contact_) return momentum_->add_move_accesses(task, region.strips());
+        momentum_->resting()->add_keep_accesses(task, first_vertex(region.begin),
+                                                first_vertex(region.end));
     }
 
     void add_multipliers(const ElementFamily& family) {
@@ -302,8 +330,17 @@ private:
         task.reads(*model_.positions, begin, end)
             .reads(*model_.previous, begin, end)
             .updates(*model_.velocities, begin, end);
-        if (momentum_) momentum_->add_move_accesses(task, region.strips());
+        if (momentum_) add_end_accesses(task, region);
         if (contact_) contact_->add_count_accesses(task, begin, end);
+    }
+
+    void add_lead(Step& step, const std::vector<Region>& regions) {
+        if (lead_.launches.empty()) return;
+        momentum_->add_first_sums(step, regions);
+        for (const Region& region : regions) {
+            auto task = step.add(lead_, 0, region.strips(), region.id);
+            momentum_->add_lead_accesses(task, region.strips());
+        }
     }
 
     /// First what crosses from strip to strip, then the strips, then contacts.
@@ -383,10 +420,11 @@ private:
     std::vector<std::string> kinds_;
     std::unique_ptr<ContactResponse> contact_;       ///< null: none
     std::unique_ptr<ContactProjection> projection_;  ///< likewise
-    std::unique_ptr<Buffer<float4>> targets_;  ///< [vertices] x~; null: no free bodies in contact
-    std::unique_ptr<BodyMomentum> momentum_;   ///< likewise
-    std::unique_ptr<NarrowTask> narrow_;       ///< null: no narrow obstacles
+    std::unique_ptr<Buffer<float4>> targets_;        ///< [vertices] x~; null: no bodies are led
+    std::unique_ptr<BodyMomentum> momentum_;         ///< likewise
+    std::unique_ptr<NarrowTask> narrow_;             ///< null: no narrow obstacles
     TaskBody predict_, velocities_;
+    TaskBody lead_;  ///< empty: no solids that may land on obstacles
     bool has_rounds_ = contact_ && !has_moving_solids(model_);
     TaskBody push_;               ///< empty: no contact
     TaskBody show_, push_again_;  ///< behind the last iteration; empty: no rounds there

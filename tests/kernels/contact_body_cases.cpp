@@ -292,7 +292,7 @@ void lead_case(KernelCase& c) {
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     c.launch = launch(kernels::lead_bodies, c.segments, positions, motions, strains, moments,
-                      bodies, kBodies);
+                      bodies, std::max(c.random.real(-0.5f, 1.0f), 0.0f), kBodies);
 }
 
 const bool added =

@@ -209,9 +209,9 @@ void begin_case(KernelCase& c) {
     auto& searches = add_reals(c, "searches", 3 * c.items, 1.0f, 2.0f);
     auto& applied = add_reals(c, "applied", 3 * c.items, 1.0f, 2.0f);
     auto& moves = add_reals(c, "moves", 3 * c.items, 1.0f, 2.0f);
-    c.launch = launch(kernels::begin_conjugate_gradients, c.segments, positions, targets, sums,
-                      holds, factors, residuals, searches, applied, moves, c.items,
-                      c.random.integer(0, 1), 1e2f);
+    c.launch =
+        launch(kernels::begin_conjugate_gradients, c.segments, positions, targets, sums, holds,
+               factors, residuals, searches, applied, moves, c.items, c.random.integer(0, 1), 1e2f);
 }
 
 void precondition_case(KernelCase& c) {
@@ -235,9 +235,9 @@ void finish_case(KernelCase& c) {
     auto& places = c.add<int>("places", c.items);
     for (int i = 0; i < c.items; ++i) places[at(i)] = i + 3;
     auto& terms = add_reals(c, "terms", 2 * c.items + 10, 1.0f, 2.0f);
-    c.launch = launch(kernels::finish_product, c.segments, positions, residuals, preconditioned,
-                      holds, products, places, terms, c.items, c.items + 5,
-                      c.random.integer(0, 1), 1e2f);
+    c.launch =
+        launch(kernels::finish_product, c.segments, positions, residuals, preconditioned, holds,
+               products, places, terms, c.items, c.items + 5, c.random.integer(0, 1), 1e2f);
 }
 
 void dot_columns_case(KernelCase& c) {

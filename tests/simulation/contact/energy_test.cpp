@@ -154,8 +154,8 @@ TEST_P(ContactEnergyOf, ShorterStepsStoreMore) {
     EXPECT_TRUE(run.troubles().empty());
 }
 
-/// Five sheets that fall on a plane together are too much for a few iterations of xpbd where contacts
-/// are made a hundred times as hard: these store many times the energy that is there.
+/// Five sheets that fall on a plane together are too much for a few iterations of xpbd where
+/// contacts are made a hundred times as hard: these store many times the energy that is there.
 TEST(Contact, EnergyFromNowhereInContactsIsTold) {
     const auto sheet = [](int number) {
         return fmt::format(R"(

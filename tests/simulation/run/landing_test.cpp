@@ -75,14 +75,9 @@ stretch = {{ stiffness = 5000 }}
 
 INSTANTIATE_TEST_SUITE_P(Methods, LandingSheets, kMethods, name_of_method);
 
-class LandingBlock : public Landing {};
-
-/// At 5 m/s, by 2 cm per substep. Newton's system led all of it into the plane, and its lowest
-/// vertices were pushed out behind that, with up to seven times the energy of the fall.
-TEST_P(LandingBlock, GainsNothing) {
-    for (const char* contact : {"", "[contact]\nthickness = 0.005\n"}) {
-        for (const int iterations : {2, 8}) {
-            const Account account = run_of(fmt::format(R"(
+/// At 5 m/s, by 2 cm per substep.
+std::string falling_block(int iterations, const std::string& contact) {
+    return fmt::format(R"(
 [scene]
 frames = 1
 dt = 0.016666667
@@ -101,17 +96,40 @@ shape = "plane"
 point = [0, 0, 0]
 friction = 0.5
 {})",
-                                                       iterations, contact),
-                                           45);
-            EXPECT_LT(account.gained, 1e-3 * account.fallen) << iterations << contact;
-            EXPECT_GT(account.fallen, 2.0);
-        }
-    }
+                       iterations, contact);
 }
+
+class LandingBlock : public Landing {
+protected:
+    /// What it gains at most; it falls by 3 J [J].
+    static double most_gained() {
+        double most = 0.0;
+        for (const char* contact : {"", "[contact]\nthickness = 0.005\n"}) {
+            for (const int iterations : {2, 8}) {
+                const Account account = run_of(falling_block(iterations, contact), 45);
+                EXPECT_GT(account.fallen, 1.0);
+                most = std::max(most, account.gained);
+            }
+        }
+        return most;
+    }
+};
+
+/// Newton's system led all of it into the plane, and its lowest vertices were pushed out behind
+/// that, with up to seven times the energy of the fall.
+TEST_P(LandingBlock, GainsNothing) { EXPECT_LT(most_gained(), 3e-3); }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LandingBlock,
                          testing::Values(Method::kVbd, Method::kSosd, Method::kNewton),
                          name_of_method);
+
+class LandingBlockOf : public LandingBlock {};
+
+/// Its projections are not solved by then, so some is left; two hundred times the fall before
+/// blocks that land were led out as wholes.
+TEST_P(LandingBlockOf, XpbdGainsLittle) { EXPECT_LT(most_gained(), 6.0); }
+
+INSTANTIATE_TEST_SUITE_P(Methods, LandingBlockOf, testing::Values(Method::kXpbd), name_of_method);
 
 }  // namespace
 }  // namespace weft::test
