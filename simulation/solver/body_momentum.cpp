@@ -95,8 +95,14 @@ void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int 
     }
 }
 
-void BodyMomentum::add_first_sums(Step& step, const std::vector<Region>& regions) {
+void BodyMomentum::add_lead_tasks(Step& step, const TaskBody& lead,
+                                  const std::vector<Region>& regions) {
+    if (lead.launches.empty()) return;
     touching_->add_first_rounds(step, sums_, regions);
+    for (const Region& region : regions) {
+        auto task = step.add(lead, 0, region.strips(), region.id);
+        add_lead_accesses(task, region.strips());
+    }
 }
 
 void BodyMomentum::add_lead(std::vector<Launch>& launches, float less) {

@@ -65,10 +65,9 @@ public:
     /// have the last word. Behind look_at(); nothing otherwise. (xpbd shows by itself where that
     /// has led them.) less: as TouchingBodies::lead()'s
     void add_lead(std::vector<Launch>& launches, float less = 0.0f);
-    /// Where that is done: adds up how far, from the positions that contacts were found at.
-    void add_first_sums(Step& step, const std::vector<Region>& regions);
-    /// What leading them needs of its own strips.
-    void add_lead_accesses(Step::Adding& task, StripRange strips);
+    /// Where that is done: adds up how far, from the positions that contacts were found at, and
+    /// then does it. lead: with these launches; nothing if there are none
+    void add_lead_tasks(Step& step, const TaskBody& lead, const std::vector<Region>& regions);
 
     /// Moves bodies, behind the velocities of a substep; obstacles and contacts have the last word.
     void add_moves(std::vector<Launch>& launches);
@@ -80,6 +79,8 @@ public:
     std::vector<RowTable*> tables();
 
 private:
+    void add_lead_accesses(Step::Adding& task, StripRange strips);
+
     Model& model_;
     ContactResponse* contact_;
     Buffer<float4>& targets_;

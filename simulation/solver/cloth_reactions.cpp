@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernels/descent/cloth_reactions.h"
+#include "simulation/solver/marked_bodies.h"
 
 namespace weft {
 
@@ -20,12 +21,7 @@ std::unique_ptr<ClothReactions> ClothReactions::of(Model& model, ContactResponse
 
 ClothReactions::ClothReactions(Model& model, ContactResponse* contact)
     : model_(model), contact_(contact), cloth_("reactions.cloth", model.positions->count()) {
-    for (const BodyRange& body : model.bodies) {
-        if (!is_cloth(body)) continue;
-        for (int own = 0; own < body.vertex_count; ++own) {
-            cloth_[static_cast<std::size_t>(model.vertex(body.vertex(own)))] = 1.0f;
-        }
-    }
+    mark_bodies(model, "cloth", cloth_);
 }
 
 Launch ClothReactions::lead(VertexItems& items, Phase phase, Buffer<float4>& positions,

@@ -30,12 +30,7 @@ void DescentSubstep::lead_bodies() {
 }
 
 void DescentSubstep::add_lead(Step& step, const std::vector<Region>& regions) {
-    if (lead_.launches.empty()) return;
-    momentum_.add_first_sums(step, regions);
-    for (const Region& region : regions) {
-        auto task = step.add(lead_, 0, region.strips(), region.id);
-        momentum_.add_lead_accesses(task, region.strips());
-    }
+    momentum_.add_lead_tasks(step, lead_, regions);
 }
 
 void DescentSubstep::add_start(Step& step) {

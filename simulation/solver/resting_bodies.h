@@ -17,8 +17,8 @@ struct ObstaclePushes {
 };
 
 /// Free bodies on convex obstacles: to the rounds that move these as wholes, obstacles are contacts
-/// like any other (kernels/contact/resting.h). Without [contact], to solids alone: what else bears
-/// cloth is nothing that such a round would lead it into.
+/// like any other (kernels/contact/resting.h). Without [contact], of solids alone: rounds lead no
+/// cloth into what bears it then, as nothing presses it.
 class RestingBodies {
 public:
     /// Null: there are no convex obstacles, or no such bodies. creep: of what sticks, per substep

@@ -132,7 +132,7 @@ public:
         Step step;
         for (const Region& region : regions) add_predict(step, region);
         if (contact_) contact_->add_detection(step, regions);
-        add_lead(step, regions);
+        if (momentum_) momentum_->add_lead_tasks(step, lead_, regions);
         for (int iteration = 0; iteration < model_.scene.solver.iterations; ++iteration) {
             add_iteration(step, regions, iteration);
         }
@@ -332,15 +332,6 @@ private:
             .updates(*model_.velocities, begin, end);
         if (momentum_) add_end_accesses(task, region);
         if (contact_) contact_->add_count_accesses(task, begin, end);
-    }
-
-    void add_lead(Step& step, const std::vector<Region>& regions) {
-        if (lead_.launches.empty()) return;
-        momentum_->add_first_sums(step, regions);
-        for (const Region& region : regions) {
-            auto task = step.add(lead_, 0, region.strips(), region.id);
-            momentum_->add_lead_accesses(task, region.strips());
-        }
     }
 
     /// First what crosses from strip to strip, then the strips, then contacts.

@@ -1,6 +1,7 @@
 #include "simulation/solver/newton/holds.h"
 
 #include "kernels/newton/holds.h"
+#include "simulation/solver/marked_bodies.h"
 
 namespace weft {
 
@@ -16,12 +17,7 @@ NewtonHolds::NewtonHolds(Model& model, DescentSubstep& substep, Buffer<float>& c
       control_(control),
       solid_("newton.solid", model.positions->count()),
       holds_("newton.holds", model.positions->count()) {
-    for (const BodyRange& body : model.bodies) {
-        if (body.kind != "solid") continue;
-        for (int own = 0; own < body.vertex_count; ++own) {
-            solid_[static_cast<std::size_t>(model.vertex(body.vertex(own)))] = 1.0f;
-        }
-    }
+    mark_bodies(model, "solid", solid_);
 }
 
 Launch NewtonHolds::find(Buffer<float>& sums) {
