@@ -137,12 +137,12 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
     store_moments(partials, column_count, i, sum);
 }
 
-/// The moments of a body, from its centre of mass.
+/// The moments of a body, from the vertex that its columns begin at.
 /// sums   [9 * (runs + most_runs)] row-major: the parts of a run follow each other
 /// first  its first run
 /// count  of its runs, most_runs at the most
-WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
-                                int most_runs) {
+WEFT_INLINE moments sum_from_origin(WEFT_GLOBAL const float4* sums, whole first, real count,
+                                    int most_runs) {
     const integer start = address(first * splat_whole(WEFT_MOMENT_PARTS));
     moments sum = no_moments();
     for (int k = 0; k < most_runs; ++k) {
@@ -150,6 +150,13 @@ WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, rea
         sum =
             add_share_of_moments(sum, gather_moments(sums + WEFT_MOMENT_PARTS * k, 1, start), own);
     }
+    return sum;
+}
+
+/// The same, from its centre of mass.
+WEFT_INLINE moments sum_of_runs(WEFT_GLOBAL const float4* sums, whole first, real count,
+                                int most_runs) {
+    moments sum = sum_from_origin(sums, first, count, most_runs);
     const real3 back = scale(sum.offset, splat(-1.0f));
     sum.spread = add_sym(sum.spread, outer_sym(sum.offset, splat(-1.0f)));
     sum.lags = add_mat(sum.lags, outer_mat(back, sum.lag));

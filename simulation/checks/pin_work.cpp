@@ -20,6 +20,25 @@ bool all_held_move(const Model& model) {
     return held == model.moving_pins->count();
 }
 
+/// Whether an obstacle may have pushed something within a frame that ends at `end` [s]: it is no
+/// farther than the way that either has gone.
+bool is_touched(const Model& model, const SimulationState& before, double start, double end) {
+    const auto now = model.positions->span();
+    for (std::size_t o = 0; o < model.convex_obstacles.size(); ++o) {
+        const Obstacle& obstacle = model.convex_obstacles[o];
+        const Frame from = obstacle.frame_at(start);
+        const Frame to = obstacle.frame_at(end);
+        const double moved = farthest_move(from, to, obstacle.half_size);
+        for (std::size_t v = 0; v < now.size(); ++v) {
+            const double way = length(to_vec3(now[v]) - to_vec3(before.positions[v])) + moved;
+            const double apart = length(to_vec3(now[v]) - to.origin);
+            if (now[v].w <= 0.0f || apart > model.obstacles->reach(o) + way) continue;
+            if (model.obstacles->touches(o, to, static_cast<int>(v), now, way)) return true;
+        }
+    }
+    return false;
+}
+
 /// What damping has left of a velocity after so many substeps, as a part of what it took.
 double damped_by(const float4& velocity, int substeps) {
     return substeps * (1.0 / static_cast<double>(velocity.w) - 1.0);
@@ -119,7 +138,8 @@ OutsideWork work_of_turn(const Model& model, const SimulationState& before, cons
 
 std::optional<OutsideWork> work_of_pins(const Model& model, const SimulationState& before,
                                         double start, double end) {
-    if (!model.moving_pins || model.obstacles || !all_held_move(model)) return std::nullopt;
+    if (!model.moving_pins || !all_held_move(model)) return std::nullopt;
+    if (model.obstacles && is_touched(model, before, start, end)) return std::nullopt;
     const int substeps = static_cast<int>(std::lround((end - start) / model.h));
     if (const auto velocity = model.moving_pins->common_velocity(start, model.h, substeps)) {
         return work_of_push(model, before, *velocity, substeps);

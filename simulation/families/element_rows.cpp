@@ -19,7 +19,7 @@ std::vector<int> lengths_of(const Grouped<ElementCorner>& corners, const VertexI
 
 ElementRows::ElementRows(const std::string& name, const Elements& elements,
                          const VertexItems& items)
-    : ElementRows(name, elements, items, corners_at_vertices(elements, items.count())) {}
+    : ElementRows(name, elements, items, corners_at_vertices(elements, items.vertex_count())) {}
 
 ElementRows::ElementRows(const std::string& name, const Elements& elements,
                          const VertexItems& items, const Grouped<ElementCorner>& corners)

@@ -103,6 +103,13 @@ std::optional<Vec3> MovingPins::common_velocity(double time, double h, int subst
     return first;
 }
 
+std::optional<std::size_t> MovingPins::group_of(int vertex) const {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        if (std::ranges::binary_search(groups_[g].vertices, vertex)) return g;
+    }
+    return std::nullopt;
+}
+
 std::size_t MovingPins::count() const {
     std::size_t sum = 0;
     for (const Group& group : groups_) sum += group.vertices.size();

@@ -29,6 +29,10 @@ public:
     /// The velocity of all pins, if they all have the same in all `substeps` of h [s] from `time`
     /// on [m/s]; not known of those that have frames.
     std::optional<Vec3> common_velocity(double time, double h, int substeps) const;
+    /// The one that a vertex is led by; none: it stays, or is not held.
+    std::optional<std::size_t> group_of(int vertex) const;
+    /// Whether distances within a group stay as they are.
+    bool is_rigid(std::size_t group) const { return groups_[group].frames.empty(); }
     /// How many vertices move.
     std::size_t count() const;
     /// Writes where the pins are at `time` into their places of `positions` (new order).

@@ -18,12 +18,12 @@ constexpr float kHeld = 50.0f;
 }  // namespace
 
 BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
-                           Buffer<float4>& targets, bool solves_vertices, int first_kind)
+                           Buffer<float4>& targets, Solves solves, int first_kind)
     : model_(model),
       contact_(contact),
       targets_(targets),
       has_multipliers_(multipliers != nullptr),
-      cloth_(solves_vertices ? ClothReactions::of(model, contact) : nullptr),
+      cloth_(solves == Solves::kVertices ? ClothReactions::of(model, contact) : nullptr),
       free_bodies_(FreeBodies::of(model)),
       sums_{"momentum", first_kind, {}} {
     const float held = cloth_ || (contact && !multipliers) ? kHeld : 0.0f;
@@ -31,7 +31,9 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
         touching_ =
             TouchingBodies::of(model, *free_bodies_, contact, multipliers, held, first_kind + 1);
     if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_, held);
-    if (free_bodies_ && (model.obstacles || touching_))
+    if (solves != Solves::kConstraints)
+        held_ = HeldBodies::of(model, contact, first_kind + static_cast<int>(kinds().size()));
+    if (has_bodies() && (model.obstacles || contact))
         moved_ = std::make_unique<Buffer<float4>>("moved", targets.count());
     if (model.obstacles) starts_ = std::make_unique<Buffer<float4>>("starts", targets.count());
     if (resting()) pressing_ = std::make_unique<Buffer<float4>>("pressing", targets.count());
@@ -79,11 +81,16 @@ void BodyMomentum::look_at(Buffer<float4>& positions) {
             touching_->sum(positions, targets_, {starts_.get(), pressing_.get()}, sums_.kind);
     else if (lone_)
         sums_.launches = lone_->sums().sum(model_, positions, targets_, starts_.get());
+    if (held_) held_->look_at(positions, targets_, starts_.get());
 }
 
 void BodyMomentum::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
-    if (!free_bodies_) return;
-    if (touching_) return touching_->add_rounds(step, sums_, regions, *positions_, iteration);
+    if (touching_) touching_->add_rounds(step, sums_, regions, *positions_, iteration);
+    if (lone_) add_lone_sums(step, regions, iteration);
+    if (held_) held_->add_sums(step, regions, iteration);
+}
+
+void BodyMomentum::add_lone_sums(Step& step, const std::vector<Region>& regions, int iteration) {
     for (const Region& region : regions) {
         if (!free_bodies_->reach_into(region.begin, region.end)) continue;
         const int first = model_.vertices().item(region.begin);
@@ -124,11 +131,13 @@ void BodyMomentum::add_lead_accesses(Step::Adding& task, StripRange strips) {
 
 /// A motion may lead into what pushes.
 void BodyMomentum::add_moves(std::vector<Launch>& launches) {
-    if (!free_bodies_) return;
-    if (touching_)
-        launches.push_back(touching_->move(model_, targets_));
-    else
-        std::ranges::move(lone_->move(model_, targets_), std::back_inserter(launches));
+    if (!has_bodies()) return;
+    const auto add = [&](std::vector<Launch> moves) {
+        std::ranges::move(moves, std::back_inserter(launches));
+    };
+    if (touching_) launches.push_back(touching_->move(model_, targets_));
+    if (lone_) add(lone_->move(model_, targets_));
+    if (held_) add(held_->move(targets_));
     if (!moved_) return;
     launches.push_back(
         launch(kernels::copy_positions, model_.vertices(), *model_.positions, *moved_));
@@ -143,11 +152,10 @@ void BodyMomentum::add_moves(std::vector<Launch>& launches) {
 }
 
 void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
-    if (!free_bodies_) return;
-    if (touching_)
-        touching_->add_motion_accesses(task);
-    else
-        lone_->add_move_accesses(task);
+    if (!has_bodies()) return;
+    if (touching_) touching_->add_motion_accesses(task);
+    if (lone_) lone_->add_move_accesses(task);
+    if (held_) held_->add_move_accesses(task);
     if (contact_) contact_->add_truncation_accesses(task, strips);
     const int first = model_.vertices().item(strips.begin);
     const int last = model_.vertices().item(strips.end);
@@ -158,12 +166,14 @@ void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
 void BodyMomentum::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (free_bodies_) bodies.push_back(&sums_);
     if (touching_) std::ranges::copy(touching_->bodies(), std::back_inserter(bodies));
+    if (held_) bodies.push_back(&held_->sums());
 }
 
 std::vector<std::string> BodyMomentum::kinds() const {
     std::vector<std::string> names;
     if (free_bodies_) names.push_back(sums_.name);
     if (touching_) std::ranges::copy(touching_->kinds(), std::back_inserter(names));
+    if (held_) names.push_back(held_->sums().name);
     return names;
 }
 

@@ -8,24 +8,33 @@
 #include "simulation/contact/response.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/cloth_reactions.h"
+#include "simulation/solver/held_bodies.h"
 #include "simulation/solver/lone_bodies.h"
 #include "simulation/solver/touching_bodies.h"
 
 namespace weft {
 
-/// What keeps the momentum of bodies that nothing holds, however far iterations get. Behind the
-/// last one they are moved as wholes: by what is missing (kernels/bodies/free_bodies.h), and where
-/// something may touch them as far as that lets them (kernels/contact/bodies.h). Pushes by
-/// obstacles are no loss: they move x~ along.
+/// What keeps the momentum of bodies, however far iterations get. Behind the last one they are
+/// moved as wholes: those that nothing holds by what is missing (kernels/bodies/free_bodies.h), and
+/// where something may touch them as far as that lets them (kernels/contact/bodies.h); others as
+/// far as what holds them lets them (kernels/bodies/held_bodies.h). Pushes by obstacles are no
+/// loss: they move x~ along.
 class BodyMomentum {
 public:
+    /// What a solver solves, one after the other.
+    enum class Solves {
+        kVertices,     ///< a system of each vertex
+        kAll,          ///< one of all of them
+        kConstraints,  ///< by projections, which keep momentum; bodies that are held stay as they
+                       ///< are
+    };
     /// contact: null: none. multipliers: [entries of its rows] by which contacts rub; null: they do
-    /// so as their gaps say. targets: [vertices] x~. solves_vertices: the solver has a system of
-    /// each of them. first_kind: of the tasks, if there are any. All others must outlive this.
+    /// so as their gaps say. targets: [vertices] x~. first_kind: of the tasks, if there are any.
+    /// All others must outlive this.
     BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>* multipliers,
-                 Buffer<float4>& targets, bool solves_vertices, int first_kind);
+                 Buffer<float4>& targets, Solves solves, int first_kind);
 
-    bool has_bodies() const { return free_bodies_ != nullptr; }
+    bool has_bodies() const { return free_bodies_ || held_; }
     /// Null: nothing is free.
     const FreeBodies* bodies() const { return free_bodies_.get(); }
 
@@ -79,6 +88,7 @@ public:
     std::vector<RowTable*> tables();
 
 private:
+    void add_lone_sums(Step& step, const std::vector<Region>& regions, int iteration);
     void add_lead_accesses(Step::Adding& task, StripRange strips);
 
     Model& model_;
@@ -90,6 +100,7 @@ private:
     std::unique_ptr<FreeBodies> free_bodies_;   ///< null: none
     std::unique_ptr<TouchingBodies> touching_;  ///< null: nothing may touch a free body
     std::unique_ptr<LoneBodies> lone_;          ///< null: no free bodies, or those
+    std::unique_ptr<HeldBodies> held_;          ///< null: none
     std::unique_ptr<Buffer<float4>> moved_;     ///< null: nothing has the last word behind moves
     std::unique_ptr<Buffer<float4>> starts_;    ///< x~ before pushes; null: no obstacles
     std::unique_ptr<Buffer<float4>> pressing_;  ///< null: no bodies that rest

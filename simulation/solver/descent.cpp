@@ -8,11 +8,11 @@
 
 namespace weft {
 
-DescentSubstep::DescentSubstep(Model& model, bool solves_vertices, int first_kind)
+DescentSubstep::DescentSubstep(Model& model, BodyMomentum::Solves solves, int first_kind)
     : model_(model),
       targets_("targets", static_cast<std::size_t>(model.vertex_count())),
       contact_(ContactResponse::of(model, first_kind)),
-      momentum_(model, contact_.get(), nullptr, targets_, solves_vertices,
+      momentum_(model, contact_.get(), nullptr, targets_, solves,
                 first_kind + (contact_ ? static_cast<int>(contact_->kinds().size()) : 0)),
       first_kind_(first_kind) {}
 

@@ -19,9 +19,8 @@ namespace weft {
 /// How substeps begin and end in all methods that descend E(x); see kernels/descent/substep.h.
 class DescentSubstep {
 public:
-    /// solves_vertices: as BodyMomentum's. first_kind: of tasks that are not the solver's own, if
-    /// there are any
-    DescentSubstep(Model& model, bool solves_vertices, int first_kind);
+    /// first_kind: of tasks that are not the solver's own, if there are any
+    DescentSubstep(Model& model, BodyMomentum::Solves solves, int first_kind);
 
     /// What the first and the last task of a substep launch.
     std::vector<Launch> begin();

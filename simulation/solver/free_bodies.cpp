@@ -1,6 +1,7 @@
 #include "simulation/solver/free_bodies.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "kernels/bodies/runs.h"
 #include "scheduler/assert.h"
@@ -33,61 +34,91 @@ bool is_solid(const Model& model, int begin, int end) {
     return true;
 }
 
-}  // namespace
-
-std::unique_ptr<FreeBodies> FreeBodies::of(const Model& model) {
-    const std::vector<int> bodies = component_begins(model.vertex_count(), model.stencils());
-    std::vector<Run> runs = runs_of(model, bodies);
-    if (runs.empty()) return nullptr;
-    return std::unique_ptr<FreeBodies>(new FreeBodies(model, bodies, std::move(runs)));
-}
-
-/// A vertex alone falls exactly by itself.
-std::vector<FreeBodies::Run> FreeBodies::runs_of(const Model& model,
-                                                 const std::vector<int>& bodies) {
-    std::vector<Run> runs;
-    for (int body = 0; body + 1 < static_cast<int>(bodies.size()); ++body) {
-        const int last = bodies[at(body + 1)];
-        int begin = bodies[at(body)];
-        if (last - begin < 2 || is_held(model, begin, last)) continue;
-        const bool solid = is_solid(model, begin, last);
-        while (begin < last) {
+std::vector<FreeBodies::Run> runs_of(const Model& model,
+                                     const std::vector<FreeBodies::Whole>& wholes) {
+    std::vector<FreeBodies::Run> runs;
+    for (int body = 0; body < static_cast<int>(wholes.size()); ++body) {
+        const auto [first, last, origin] = wholes[at(body)];
+        const bool solid = is_solid(model, first, last);
+        for (int begin = first; begin < last;) {
             const int strip = model.strips.strip_of(begin);
             const int end = std::min(last, model.strips.begin[at(strip + 1)]);
             WEFT_ASSERT(begin < end);
-            runs.push_back({body, strip, begin, end, solid});
+            runs.push_back({body, strip, begin, end, origin, solid});
             begin = end;
         }
     }
     return runs;
 }
 
-FreeBodies::FreeBodies(const Model& model, const std::vector<int>& bodies, std::vector<Run> runs)
-    : runs_(std::move(runs)),
+/// Of each body, of what is free of it.
+FreeBodies::Counted shares_of_mass(const Model& model,
+                                   const std::vector<FreeBodies::Whole>& wholes) {
+    const std::size_t count = model.positions->count();
+    FreeBodies::Counted counted{std::vector<int>(count), std::vector<double>(count)};
+    std::iota(counted.numbers.begin(), counted.numbers.end(), 0);
+    for (const auto& whole : wholes) {
+        double mass = 0.0;
+        for (int v = whole.begin; v < whole.end; ++v) {
+            counted.shares[at(v)] = is_held(model, v, v + 1) ? 0.0 : model.masses[at(v)];
+            mass += counted.shares[at(v)];
+        }
+        for (int v = whole.begin; v < whole.end; ++v) counted.shares[at(v)] /= mass;
+    }
+    return counted;
+}
+
+}  // namespace
+
+/// A vertex alone falls exactly by itself. The vertex in the middle of a body's order is somewhere
+/// in its middle.
+std::unique_ptr<FreeBodies> FreeBodies::of(const Model& model) {
+    const std::vector<int> bodies = component_begins(model.vertex_count(), model.stencils());
+    std::vector<Whole> wholes;
+    for (std::size_t body = 0; body + 1 < bodies.size(); ++body) {
+        const int begin = bodies[body];
+        const int end = bodies[body + 1];
+        if (end - begin < 2 || is_held(model, begin, end)) continue;
+        wholes.push_back({begin, end, (begin + end) / 2});
+    }
+    return wholes.empty() ? nullptr : std::make_unique<FreeBodies>(model, wholes);
+}
+
+FreeBodies::FreeBodies(const Model& model, const std::vector<Whole>& wholes)
+    : FreeBodies(model, wholes, shares_of_mass(model, wholes)) {
+    number_vertices(model);
+}
+
+FreeBodies::FreeBodies(const Model& model, const std::vector<Whole>& wholes, const Counted& counted)
+    : runs_(runs_of(model, wholes)),
       strip_runs_("free.strip_runs", model.strips.begin.size()),
       strip_columns_("free.strip_columns", model.strips.begin.size()),
       rows_("free.rows", 2 * kColumns * runs_.size()),
       first_run_("free.first_run", runs_.size()),
-      counts_("free.counts", runs_.size()),
-      run_of_("free.run_of", at(model.vertex_count())) {
+      counts_("free.counts", runs_.size()) {
     fill_strips(model);
     fill_bodies();
-    fill_columns(model, bodies);
+    fill_columns(counted);
     WEFT_ASSERT(strip_runs_[at(model.strips.count())] == static_cast<int>(runs_.size()));
     runs_by_strip_ = {&strip_runs_, 0, 1, model.strips.count()};
     columns_by_strip_ = {&strip_columns_, 0, 1, model.strips.count()};
 }
 
 void FreeBodies::fill_strips(const Model& model) {
-    std::fill(run_of_.data(), run_of_.data() + run_of_.count(), static_cast<int>(runs_.size()));
-    for (std::size_t r = 0; r < runs_.size(); ++r) {
-        ++strip_runs_[at(runs_[r].strip + 1)];
-        std::fill(run_of_.data() + runs_[r].begin, run_of_.data() + runs_[r].end,
-                  static_cast<int>(r));
-    }
+    for (const Run& run : runs_) ++strip_runs_[at(run.strip + 1)];
     for (int s = 0; s < model.strips.count(); ++s) {
         strip_runs_[at(s + 1)] += strip_runs_[at(s)];
         strip_columns_[at(s + 1)] = kColumns * strip_runs_[at(s + 1)];
+    }
+}
+
+void FreeBodies::number_vertices(const Model& model) {
+    run_of_ = std::make_unique<Buffer<int>>("free.run_of", at(model.vertex_count()));
+    std::fill_n(run_of_->data(), run_of_->count(), run_count());
+    for (int r = 0; r < run_count(); ++r) {
+        for (int v = run(r).begin; v < run(r).end; ++v) {
+            if (!is_held(model, v, v + 1)) (*run_of_)[at(v)] = r;
+        }
     }
 }
 
@@ -104,25 +135,24 @@ void FreeBodies::fill_bodies() {
     }
 }
 
-void FreeBodies::fill_columns(const Model& model, const std::vector<int>& bodies) {
+void FreeBodies::fill_columns(const Counted& counted) {
     std::vector<std::size_t> sizes;
-    std::vector<int> vertices;
+    std::vector<int> numbers;
     std::vector<double> shares;
     for (const Run& run : runs_) {
-        double mass = 0.0;
-        for (int v = bodies[at(run.body)]; v < bodies[at(run.body + 1)]; ++v)
-            mass += model.masses[at(v)];
-        sizes.push_back(at(run.end - run.begin));
+        const std::size_t before = numbers.size();
         for (int v = run.begin; v < run.end; ++v) {
-            vertices.push_back(v);
-            shares.push_back(model.masses[at(v)] / mass);
+            if (counted.numbers[at(v)] < 0) continue;
+            numbers.push_back(counted.numbers[at(v)]);
+            shares.push_back(counted.shares[at(v)]);
         }
+        sizes.push_back(numbers.size() - before);
     }
     const PartColumns columns = lay_in_columns(sizes);
     std::ranges::copy(columns.rows, rows_.data());
     members_ = std::make_unique<Buffer<int>>("free.members", columns.entries.size());
     shares_ = std::make_unique<Buffer<float>>("free.shares", columns.entries.size());
-    fill_members(columns, vertices, shares, *members_, *shares_);
+    fill_members(columns, numbers, shares, *members_, *shares_);
 }
 
 bool FreeBodies::reach_into(int first_strip, int end_strip) const {

@@ -35,11 +35,28 @@ public:
     /// Null where every vertex is held, or alone.
     static std::unique_ptr<FreeBodies> of(const Model& model);
 
+    /// What hangs together.
+    struct Whole {
+        int begin, end;  ///< vertices [begin, end)
+        int origin;      ///< one of them: what it is seen from
+    };
+    /// Bodies of which some vertices are held, which count for nothing and do not move. One at
+    /// least.
+    FreeBodies(const Model& model, const std::vector<Whole>& wholes);
+
+    /// What of each vertex is summed up.
+    struct Counted {
+        std::vector<int> numbers;    ///< [vertices] what kernels call it; -1: it does not count
+        std::vector<double> shares;  ///< [vertices]
+    };
+    FreeBodies(const Model& model, const std::vector<Whole>& wholes, const Counted& counted);
+
     /// Whether some vertices of the strips belong to a free body.
     bool reach_into(int first_strip, int end_strip) const;
 
     struct Run {
         int body, strip, begin, end;  ///< vertices [begin, end)
+        int origin;                   ///< vertex that the body is seen from
         bool is_solid;                ///< all of the body
     };
     const Run& run(int r) const { return runs_[static_cast<std::size_t>(r)]; }
@@ -51,15 +68,15 @@ public:
     /// Those of strips [first_strip, end_strip).
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
-    BodyRuns runs() { return {first_run_, counts_, run_of_, runs_by_strip_}; }
+    /// Not where only some vertices are counted.
+    BodyRuns runs() { return {first_run_, counts_, *run_of_, runs_by_strip_}; }
     /// Adds up columns for each run.
     Launch add_columns(Buffer<float4>& partials, Buffer<float4>& sums, const SumLayout& layout);
 
 private:
-    FreeBodies(const Model& model, const std::vector<int>& bodies, std::vector<Run> runs);
-    static std::vector<Run> runs_of(const Model& model, const std::vector<int>& bodies);
     void fill_strips(const Model& model);
-    void fill_columns(const Model& model, const std::vector<int>& bodies);
+    void number_vertices(const Model& model);
+    void fill_columns(const Counted& counted);
     void fill_bodies();
 
     /// Where columns of one kind are, and where their sums belong: an item per run and part.
@@ -79,7 +96,7 @@ private:
     Buffer<int> rows_;           ///< [2 * columns] see the kernels for these and the following
     Buffer<int> first_run_;      ///< [runs]
     Buffer<float> counts_;       ///< [runs]
-    Buffer<int> run_of_;         ///< [vertices]
+    std::unique_ptr<Buffer<int>> run_of_;    ///< [vertices] see BodyRuns; null: some are counted
     std::unique_ptr<Buffer<int>> members_;   ///< [entries]
     std::unique_ptr<Buffer<float>> shares_;  ///< [entries]
     std::vector<std::unique_ptr<Sums>> sums_;

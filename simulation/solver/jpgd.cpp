@@ -62,7 +62,7 @@ public:
     explicit JpgdSolver(Model& model)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, /*solves_vertices=*/true, kKinds),
+          substep_(model, BodyMomentum::Solves::kVertices, kKinds),
           contact_(substep_.contact()),
           items_(model.strips),
           derivatives_(model, items_),

@@ -14,17 +14,13 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-/// The vertex in the middle of a body's order is somewhere in its middle.
 MomentSums::MomentSums(FreeBodies& bodies)
     : bodies_(bodies),
       origins_("free.origins", at(bodies.column_count())),
       partials_("free.partials", at(kParts * bodies.column_count())),
       sums_("free.moments", at(kParts * (bodies.run_count() + bodies.most_runs()))) {
-    for (int first = 0, end = 0; first < bodies.run_count(); first = end) {
-        while (end < bodies.run_count() && bodies.run(end).body == bodies.run(first).body) ++end;
-        const int middle = (bodies.run(first).begin + bodies.run(end - 1).end) / 2;
-        std::fill(origins_.data() + WEFT_RUN_COLUMNS * first,
-                  origins_.data() + WEFT_RUN_COLUMNS * end, middle);
+    for (int r = 0; r < bodies.run_count(); ++r) {
+        std::fill_n(origins_.data() + WEFT_RUN_COLUMNS * r, WEFT_RUN_COLUMNS, bodies.run(r).origin);
     }
 }
 

@@ -4,7 +4,7 @@ namespace weft {
 
 SweepSolver::SweepSolver(Model& model)
     : model_(model),
-      substep_(model, /*solves_vertices=*/true, kKinds),
+      substep_(model, BodyMomentum::Solves::kVertices, kKinds),
       halo_(model),
       predict_{"predict", kPredict, substep_.begin()},
       velocities_{"velocities", kVelocities, substep_.end()} {

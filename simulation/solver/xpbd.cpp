@@ -156,7 +156,7 @@ private:
         targets_ = std::make_unique<Buffer<float4>>("targets", model_.positions->count());
         momentum_ = std::make_unique<BodyMomentum>(
             model_, contact_.get(), projection_ ? &projection_->multipliers() : nullptr, *targets_,
-            /*solves_vertices=*/false, static_cast<int>(kinds_.size()));
+            BodyMomentum::Solves::kConstraints, static_cast<int>(kinds_.size()));
         if (momentum_->has_bodies() && (contact_ || momentum_->resting())) {
             momentum_->look_at(*model_.positions);
             std::ranges::copy(momentum_->kinds(), std::back_inserter(kinds_));

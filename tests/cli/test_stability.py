@@ -48,9 +48,9 @@ def test_what_held_holds(short):
     # These sag by up to seven times what newton's do, and their runs say so.
     hanging = rows["mass ratio", "hanging : carrying = 1e+00, h = 4.17 ms", "xpbd"]
     assert hanging["verdict"] == "unconverged"
-    for solver in ("xpbd", "sosd", "jpgd"):
+    for solver in ("xpbd", "vbd", "sosd", "jpgd"):
         beam = rows["Poisson's ratio", "nu = 0.495, h = 4.17 ms", solver]
-        assert beam["verdict"] == "unconverged", solver
+        assert beam["verdict"] == ("unconverged" if solver == "xpbd" else "stable"), solver
     # It gets through nobody's sheet. Three solvers let the sheet be torn along on the way, more
     # than they have solved for, and their runs say so.
     case = "a ball of 0.3 m hits a sheet at 1000 m/s"

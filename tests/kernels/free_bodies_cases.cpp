@@ -1,4 +1,5 @@
 #include "kernels/bodies/free_bodies.h"
+#include "kernels/bodies/held_bodies.h"
 #include "kernels/bodies/ties.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -145,11 +146,96 @@ void move_parts_case(KernelCase& c) {
     c.launch = launch(kernels::move_parts, c.segments, positions, vertices, parts, motions, kParts);
 }
 
+/// Rows of up to three contacts, with the own body and others.
+void see_held_case(KernelCase& c) {
+    constexpr int kLongest = 3;
+    const int entries = WEFT_ROW_STRIDE * kLongest + c.items;
+    auto& targets = add_points(c, "targets", c.items);
+    auto& starts = add_points(c, "starts", c.items);
+    for (int v = 0; v < c.items; v += 3) starts[at(v)] = targets[at(v)];
+    auto& bodies = c.add<float>("bodies", c.items);
+    for (int v = 0; v < c.items; ++v) bodies[at(v)] = v < 2 * c.items / 3 ? 0.0f : 1.0f;
+    auto& rows = c.add<int>("rows", c.items);
+    auto& counts = add_indices(c, "counts", c.items, kLongest + 1);
+    for (int v = 0; v < c.items; ++v) rows[at(v)] = v;
+    std::vector<Buffer<int>*> corners;
+    for (const std::string name : {"corner0", "corner1", "corner2", "corner3"})
+        corners.push_back(&add_indices(c, name, entries, c.items));
+    auto& seen = c.add<float4>("seen", c.items);
+    c.launch =
+        launch(kernels::see_held, c.segments, targets, starts, bodies, rows, counts, *corners[0],
+               *corners[1], *corners[2], *corners[3], seen, c.random.integer(0, 1));
+}
+
+void hinges_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& ends = add_indices(c, "ends", 2 * c.items, c.items);
+    auto& hinges = c.add<float4>("hinges", 2 * c.items);
+    c.launch = launch(kernels::find_hinges, c.segments, positions, ends, hinges, c.items);
+}
+
+/// A column for each item, of two rows.
+void pulls_case(KernelCase& c) {
+    constexpr int kHeld = 5;
+    const int entries = c.items + WEFT_RUN_COLUMNS;
+    auto& positions = add_points(c, "positions", c.items);
+    auto& vertices = add_indices(c, "vertices", kHeld, c.items);
+    auto& sums = c.add<float>("sums", 9 * kHeld);
+    for (float& value : sums.span()) value = c.random.real(-1.0f, 1.0f);
+    auto& members = add_indices(c, "members", entries, kHeld);
+    auto& shares = c.add<float>("shares", entries);
+    for (float& share : shares.span()) share = static_cast<float>(c.random.integer(0, 3));
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = 2;
+    }
+    auto& origins = add_indices(c, "origins", c.items, c.items);
+    auto& partials = c.add<float4>("partials", WEFT_PULL_PARTS * c.items);
+    c.launch = launch(kernels::add_pulls, c.segments, positions, vertices, sums, members, shares,
+                      rows, origins, partials, kHeld, c.items);
+}
+
+/// Bodies held by two vertices, softly or hard, or by nothing.
+void solve_held_case(KernelCase& c) {
+    const int runs = c.items + kRows;
+    auto& sums = add_sums(c, runs);
+    auto& pulls = c.add<float4>("pulls", WEFT_PULL_PARTS * runs);
+    for (int r = 0; r < runs; ++r) {
+        kernels::hold h = kernels::no_hold();
+        for (int k = c.random.integer(0, 2); k > 0; --k) {
+            const float4 p = c.random.point(1.0f), way = c.random.point(1.0f);
+            const kernels::real3 line = {way.x, way.y, way.z};
+            const float hard = c.random.integer(0, 1) == 0 ? 1.0f : 1e5f;
+            const kernels::sym3 block = kernels::outer_sym(line, hard);
+            h.pull = kernels::add_scaled_motion(h.pull, {line, {p.x, p.y, p.z}}, 0.1f);
+            h.form = kernels::add_scaled_sym6(h.form,
+                                              kernels::form_at_lever(block, {p.x, p.y, p.z}), 1.0f);
+        }
+        kernels::store_hold(pulls.data() + WEFT_PULL_PARTS * r, 1, {0, 1}, h);
+    }
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = c.add<float>("counts", c.items);
+    for (float& count : counts.span()) count = static_cast<float>(c.random.integer(1, kRows));
+    auto& hinges = add_points(c, "hinges", 2 * c.items);
+    auto& numbers = c.add<float>("numbers", 3 * c.items);
+    for (int r = 0; r < c.items; ++r) {
+        numbers[at(r)] = c.random.real(0.1f, 1.0f);
+        numbers[at(2 * c.items + r)] = c.random.real(0.01f, 1.0f);
+        numbers[at(c.items + r)] = static_cast<float>(c.random.integer(0, 1));
+    }
+    auto& motions = c.add<float4>("motions", 3 * (c.items + 1));
+    c.launch = launch(kernels::solve_held, c.segments, sums, pulls, first, counts, hinges, numbers,
+                      motions, kRows, c.items, 50.0f);
+}
+
 const bool added = add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
                    add_case("move_runs", move_case) && add_case("push_velocities", push_case) &&
                    add_case("start_parts", start_parts_case) && add_case("pull_parts", pull_case) &&
                    add_case("step_parts", step_parts_case) &&
-                   add_case("move_parts", move_parts_case);
+                   add_case("move_parts", move_parts_case) && add_case("see_held", see_held_case) &&
+                   add_case("find_hinges", hinges_case) && add_case("add_pulls", pulls_case) &&
+                   add_case("solve_held", solve_held_case);
 
 }  // namespace
 }  // namespace weft::test

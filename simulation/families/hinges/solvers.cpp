@@ -45,7 +45,7 @@ std::vector<int> row_lengths(const Couplings& couplings, const VertexItems& item
 class BendingRows final : public DerivativeRows {
 public:
     BendingRows(const Hinges& hinges, const VertexItems& items)
-        : BendingRows(hinges, items, Couplings(hinges.elements(), items.count())) {}
+        : BendingRows(hinges, items, Couplings(hinges.elements(), items.vertex_count())) {}
 
     Launch gather(const DerivativeTarget& t) override {
         return launch(kernels::gather_bending, t.segments, t.positions, t.vertices, rows_.slices(),
@@ -65,7 +65,7 @@ private:
           others_("bending.others", static_cast<std::size_t>(rows_.entry_count())),
           weights_("bending.row_weights", others_.count()),
           diagonal_("bending.diagonal", static_cast<std::size_t>(items.count())) {
-        const std::vector<double> diagonal = diagonal_of(hinges, items.count());
+        const std::vector<double> diagonal = diagonal_of(hinges, items.vertex_count());
         for_each_block(items.count(), [&](int /*block*/, int begin, int end) {
             for (int i = begin; i < end; ++i) {
                 const int vertex = items.vertex(i);

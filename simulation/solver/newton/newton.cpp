@@ -49,7 +49,7 @@ public:
     NewtonSolver(Model& model, const VertexGraph& graph)
         : model_(model),
           iterations_(model.scene.solver.iterations),
-          substep_(model, /*solves_vertices=*/false, kKinds),
+          substep_(model, BodyMomentum::Solves::kAll, kKinds),
           contact_(substep_.contact()),
           control_("control", WEFT_CONTROL_SIZE),
           gradients_(model, substep_, graph, control_),

@@ -10,6 +10,15 @@
 namespace weft::test {
 namespace {
 
+/// That nothing comes near.
+const std::string kSphere = R"(
+[[obstacle]]
+shape = "sphere"
+center = [0.0, -3.0, 0.0]
+radius = 0.5
+friction = 0.5
+)";
+
 class PinWork : public EverySolver {
 protected:
     static std::vector<FrameRecord> run(const Scene& scene) {
@@ -21,7 +30,8 @@ protected:
     }
 
     /// A sheet of 0.2 m that is turned by an edge, in steps that are solved.
-    static Scene turned(const std::string& motion, int substeps = 40) {
+    static Scene turned(const std::string& motion, int substeps = 40,
+                        const std::string& obstacle = "") {
         Scene scene = scene_of(R"(
 [scene]
 frames = 8
@@ -33,7 +43,8 @@ density = 0.2
 stretch = { stiffness = 1.0e2 }
 [cloth.pins]
 edges = ["z-"]
-motion = { )" + motion + " }\n");
+motion = { )" + motion + " }\n" +
+                               obstacle);
         scene.substeps = substeps;
         scene.solver.iterations = GetParam() == Method::kNewton ? 4 : 30;
         return scene;
@@ -78,10 +89,11 @@ TEST_P(PinWork, IsKnownBesideGravityAndDamping) {
     expect_losses_grow(run(scene));
 }
 
-/// So that turning is no excuse for energy from nowhere.
+/// So that turning is no excuse for energy from nowhere, nor an obstacle that nothing touches.
 TEST_P(PinWork, LetsTroubleBeSeen) {
     if (GetParam() == Method::kNewton) return;  // it solves them
-    const Scene scene = scene_of(R"(
+    for (const std::string& obstacle : {std::string(), kSphere}) {
+        const Scene scene = scene_of(R"(
 [scene]
 frames = 12
 dt = 0.016666667
@@ -94,13 +106,22 @@ density = 0.2
 stretch = { stiffness = 1.0e5 }
 [cloth.pins]
 corners = ["x-z-", "x+z-"]
-motion = { angular_velocity = 90.0, center = [0.0, 0.0, -0.5] }
-)");
-    Simulation simulation = simulation_of(scene, OnTrouble::kReport);
-    while (simulation.frame() < scene.frames) simulation.advance();
-    ASSERT_FALSE(simulation.troubles().empty());
-    const std::string& said = simulation.troubles()[0].what;
-    EXPECT_NE(said.find("energy from nowhere"), std::string::npos) << said;
+motion = { angular_velocity = 200.0, center = [0.0, 0.0, -0.5] }
+)" + obstacle);
+        Simulation simulation = simulation_of(scene, OnTrouble::kReport);
+        while (simulation.frame() < scene.frames) simulation.advance();
+        ASSERT_FALSE(simulation.troubles().empty());
+        const std::string& said = simulation.troubles()[0].what;
+        EXPECT_NE(said.find("energy from nowhere"), std::string::npos) << said;
+    }
+}
+
+/// An obstacle is no reason not to know what pins do, before anything touches it.
+TEST_P(PinWork, IsKnownBesideObstacles) {
+    const std::string motion = "angular_velocity = 360.0, center = [0.5, 0.0, 0.3]";
+    const auto expected = run(turned(motion)), found = run(turned(motion, 40, kSphere));
+    for (std::size_t frame = 0; frame < found.size(); ++frame)
+        EXPECT_EQ(found[frame].work, expected[frame].work) << frame;
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PinWork, kMethods, name_of_method);

@@ -209,7 +209,7 @@ pins = { edges = ["x-"], motion = { velocity = [0.0, 0.0, 300.0] } }
 /// What turning pins do is not known, so that nothing can be said of energy. Strain that is plain
 /// to see in steps that are not solved is doubted all the same.
 TEST_P(EveryWrong, StrainIsDoubtedWhereWorkIsUnknown) {
-    const Scene scene = scene_of(R"(
+    Scene scene = scene_of(R"(
 [scene]
 frames = 40
 dt = 0.016666667
@@ -228,6 +228,7 @@ faces = ["x+"]
 motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
 )");
     const bool gives_way = GetParam() != Method::kXpbd && GetParam() != Method::kNewton;
+    if (gives_way) scene.substeps = 1;
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.3, gives_way) << run.most;
     EXPECT_EQ(run.most > 0.2, gives_way) << run.most;
@@ -259,7 +260,7 @@ motion = { angular_velocity = 20000.0, center = [-0.5, 0.0, 0.0] }
 
 /// A beam of which solved steps let no more than 2 mm go, and others 10 cm: at 2 % of strain.
 TEST_P(EveryWrong, ABeamThatSagsIsSeen) {
-    const Scene scene = scene_of(R"(
+    Scene scene = scene_of(R"(
 [scene]
 frames = 30
 dt = 0.016666667
@@ -272,6 +273,10 @@ poisson = 0.3
 pins = { faces = ["x-"] }
 )");
     const bool gives_way = GetParam() != Method::kNewton;
+    if (gives_way && GetParam() != Method::kXpbd) {
+        scene.substeps = 1;
+        scene.solver.iterations = 10;
+    }
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.005, gives_way) << run.most;
     EXPECT_LT(run.most, 0.02);

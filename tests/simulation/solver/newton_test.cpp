@@ -27,7 +27,7 @@ class System {
 public:
     explicit System(const std::string& text)
         : model(parse_scene(text, "test.toml"), warnings),
-          substep(model, /*solves_vertices=*/false, 0),
+          substep(model, BodyMomentum::Solves::kAll, 0),
           control("control", WEFT_CONTROL_SIZE),
           cg(model, substep, VertexGraph(model.vertex_count(), model.stencils()), control) {}
 

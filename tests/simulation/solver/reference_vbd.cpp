@@ -1,5 +1,6 @@
 #include "tests/simulation/solver/reference_vbd.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +21,12 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 int corner_of(std::span<const int> corners, int vertex) {
     return static_cast<int>(std::ranges::find(corners, vertex) - corners.begin());
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& u) {
+    Eigen::Matrix3d m;
+    m << 0.0, -u.z(), u.y(), u.z(), 0.0, -u.x(), -u.y(), u.x(), 0.0;
+    return m;
 }
 
 }  // namespace
@@ -84,6 +91,8 @@ void ReferenceVbd::substep(double time) {
         deviation_[i] = x[i] - target_[i];
         v[i] = decay_[i] * ((1.0 / model_.h) * (x[i] - previous[i]));
     }
+    move_body();
+    push_out();
 }
 
 /// Where all would fall freely, and, to start from, less what was held up of the last fall.
@@ -104,16 +113,24 @@ void ReferenceVbd::begin(double time) {
     collide();
 }
 
-void ReferenceVbd::move(int vertex) {
+/// Of elements alone.
+ReferenceVbd::System ReferenceVbd::system_of(int vertex) const {
     const std::size_t i = index(vertex);
-    if (mass_[i] == 0.0) return;
-    const double inertia = mass_[i] / (model_.h * model_.h);
-    System system{inertia * (x[i] - start_[i]), {}};
-    system.add_diagonal(inertia);
+    System system;
     for (const int e : touching_[kSprings][i]) add_spring(system, e, vertex);
     for (const int e : touching_[kHinges][i]) add_hinge(system, e, vertex);
     for (const int e : touching_[kMembranes][i]) add_membrane(system, e, vertex);
     for (const int e : touching_[kTetrahedra][i]) add_tetrahedron(system, e, vertex);
+    return system;
+}
+
+void ReferenceVbd::move(int vertex) {
+    const std::size_t i = index(vertex);
+    if (mass_[i] == 0.0) return;
+    const double inertia = mass_[i] / (model_.h * model_.h);
+    System system = system_of(vertex);
+    system.gradient = system.gradient + inertia * (x[i] - start_[i]);
+    system.add_diagonal(inertia);
     // What has been pushed is borne by what keeps it out of the plane; all else by its pushes.
     if (pushed_[i]) target_[i] = start_[i] + (1.0 / inertia) * borne(system, i);
     const Vec3 pushes = inertia * (target_[i] - start_[i]);
@@ -127,6 +144,73 @@ Vec3 ReferenceVbd::borne(const System& system, std::size_t vertex) const {
     const double gap = frame.to_local(x[vertex]).y - plane.thickness;
     const double inwards = -gap - dot(normal, system.solve(-system.gradient));
     return (std::max(inwards, 0.0) / dot(normal, system.solve(normal))) * normal;
+}
+
+/// Shifts and turns all that is free about the vertex that is held, to where the forces of inertia,
+/// the pull of that vertex and its stiffness against the shift are in balance, and the torques of
+/// inertia, of which it has none. Of a body that the plane pushes, a part of it.
+void ReferenceVbd::move_body() {
+    const auto held = static_cast<std::size_t>(std::ranges::find(mass_, 0.0) - mass_.begin());
+    const double h2 = model_.h * model_.h;
+    const auto to_eigen = [](Vec3 u) { return Eigen::Vector3d(u.x, u.y, u.z); };
+    const System system = system_of(static_cast<int>(held));
+    const Eigen::Vector3d pull = to_eigen(system.gradient);
+    Eigen::Matrix3d stiffness;
+    for (int k = 0; k < 3; ++k) stiffness.row(k) = to_eigen(system.hessian[index(k)]);
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    double mass = 0.0, pushed = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        mass += mass_[i];
+        if (length(target_[i] - start_[i]) > 0.0) pushed += mass_[i];
+    }
+    for (int round = 0; round < 10; ++round) {
+        Eigen::Matrix<double, 6, 6> form = Eigen::Matrix<double, 6, 6>::Zero();
+        Eigen::Matrix<double, 6, 1> missing = Eigen::Matrix<double, 6, 1>::Zero();
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const Eigen::Vector3d r = to_eigen(x[i] - x[held]), turned = turn * r;
+            const Eigen::Vector3d lag = to_eigen(target_[i] - x[i]) + r - shift - turned;
+            Eigen::Matrix<double, 3, 6> arm;
+            arm << Eigen::Matrix3d::Identity(), -cross_matrix(turned);
+            form += mass_[i] / h2 * arm.transpose() * arm;
+            missing += mass_[i] / h2 * arm.transpose() * lag;
+        }
+        form.topLeftCorner<3, 3>() += stiffness;
+        missing.head<3>() += pull - stiffness * shift;
+        const Eigen::Matrix<double, 6, 1> step = form.ldlt().solve(missing);
+        shift += step.head<3>();
+        const double angle = step.tail<3>().norm();
+        if (angle > 0.0) turn = Eigen::AngleAxisd(angle, step.tail<3>() / angle) * turn;
+    }
+    const double part = 1.0 / (1.0 + 50.0 * pushed / mass);
+    const Eigen::AngleAxisd whole(turn);
+    const Eigen::Matrix3d led =
+        Eigen::AngleAxisd(2.0 * std::atan(part * std::tan(0.5 * whole.angle())), whole.axis())
+            .toRotationMatrix();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (mass_[i] == 0.0) continue;
+        const Eigen::Vector3d r = to_eigen(x[i] - x[held]);
+        const Eigen::Vector3d way = part * shift + led * r - r;
+        shift_vertex(i, {way.x(), way.y(), way.z()});
+        deviation_[i] = deviation_[i] + Vec3{way.x(), way.y(), way.z()};
+    }
+}
+
+void ReferenceVbd::shift_vertex(std::size_t i, Vec3 way) {
+    x[i] = x[i] + way;
+    v[i] = v[i] + (decay_[i] / model_.h) * way;
+}
+
+/// Out of the plane, once more.
+void ReferenceVbd::push_out() {
+    for (const Obstacle& obstacle : model_.scene.obstacles) {
+        const Frame frame = obstacle.frame_at(0.0);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double depth = obstacle.thickness - frame.to_local(x[i]).y;
+            if (mass_[i] == 0.0 || depth <= 0.0) continue;
+            shift_vertex(i, depth * (frame.axes * Vec3{0.0, 1.0, 0.0}));
+        }
+    }
 }
 
 /// E = k/2 (l - rest)^2; a compressed spring's stiffness across itself is left out.

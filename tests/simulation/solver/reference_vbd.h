@@ -10,8 +10,8 @@ namespace weft::test {
 
 /// Vertex block descent once more (Chen et al. 2024): straightforward, in double precision, one
 /// vertex after the other in the order that the layout defines. Shares the model's tables with the
-/// solver, and no arithmetic. For scenes whose bodies are all held somewhere, and whose obstacle,
-/// if they have one, is a plane without friction that stands still, below cloth alone.
+/// solver, and no arithmetic. For a body that is held in one vertex, and whose obstacle, if it has
+/// one, is a plane without friction that stands still, below cloth alone.
 class ReferenceVbd {
 public:
     explicit ReferenceVbd(const Model& model);
@@ -34,11 +34,15 @@ private:
     };
 
     void begin(double time);
+    System system_of(int vertex) const;
     void move(int vertex);
+    void move_body();
     void add_spring(System& system, int spring, int vertex) const;
     void add_hinge(System& system, int hinge, int vertex) const;
     void add_membrane(System& system, int triangle, int vertex) const;
     void add_tetrahedron(System& system, int tetrahedron, int vertex) const;
+    void shift_vertex(std::size_t i, Vec3 way);
+    void push_out();
     Vec3 borne(const System& system, std::size_t vertex) const;
     void collide();
 
