@@ -222,8 +222,7 @@ WEFT_INLINE body_motion missing_beside(moments m, hold held) {
 /// counts     [runs] of that body's runs
 /// hinges     as find_hinges leaves them
 /// numbers    [3 * runs] column-major: h^2 / mass of the body [s^2/kg]; 1: it can turn about what
-///            holds it, 0: it cannot; from which way on it is not moved: of
-///            what holds it, seen from it [m]
+///            holds it, 0: it cannot; how far at what holds it is too far for it to be moved [m]
 /// motions    [3 * (runs + 1)] column-major, written: the shift [m], the turn, and its centre [m]
 /// most_runs  that a body has
 /// held_by_others  how hard what others push and touch is held, in units of its inertia
@@ -268,6 +267,38 @@ WEFT_KERNEL(solve_held, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const float4
             make3(is_sound ? shift.x : zero, is_sound ? shift.y : zero, is_sound ? shift.z : zero),
             make3(is_sound ? turn.x : zero, is_sound ? turn.y : zero, is_sound ? turn.z : zero)));
     store4(motions, column(i, run_count + 1, 2), load4(hinges, i));
+}
+
+/// Moves what is free of held bodies, and its velocities by as much per substep, as move_runs does.
+/// positions   [vertices] xyz [m]
+/// deviations  [vertices] xyz: x - x~ [m]
+/// velocities  [vertices] xyz [m/s], w = what damping leaves per substep
+/// motions     [3 * (runs + 1)] as solve_held leaves them
+/// members, shares, rows  see runs.h: what has no share stays
+/// runs        [columns] the run of each
+/// inverse_h   1 / h [1/s], h the substep
+WEFT_KERNEL(move_held, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
+            WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* runs, float inverse_h,
+            int run_count) {
+    const integer run = load_index(runs, i);
+    const real3 centre = xyz(gather4(motions + 2 * (run_count + 1), run));
+    const body_motion motion = gather_motion(motions, run_count + 1, run);
+    const int length = rows[2 * i.first + 1];
+    for (int k = 0; k < length; ++k) {
+        const item entry = {rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
+        const integer v = load_index(members, entry);
+        const mask is_free = load(shares, entry) > splat(0.0f);
+        const real4 x = gather4(positions, v);
+        const real3 way = way_of_motion(motion, subtract(xyz(x), centre));
+        const real4 off = gather4(deviations, v);
+        const real4 u = gather4(velocities, v);
+        scatter4_where(is_free, positions, v, with_w(add(xyz(x), way), x.w));
+        scatter4_where(is_free, deviations, v, with_w(add(xyz(off), way), off.w));
+        scatter4_where(is_free, velocities, v,
+                       with_w(add_scaled(xyz(u), way, u.w * splat(inverse_h)), u.w));
+    }
 }
 
 WEFT_KERNELS_END

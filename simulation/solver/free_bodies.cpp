@@ -21,6 +21,8 @@ bool is_held(const Model& model, int begin, int end) {
     return std::any_of(model.positions->data() + begin, model.positions->data() + end, held);
 }
 
+}  // namespace
+
 /// Neighbours mostly are of the same body of the scene.
 bool is_solid(const Model& model, int begin, int end) {
     const BodyRange* known = nullptr;
@@ -33,6 +35,8 @@ bool is_solid(const Model& model, int begin, int end) {
     }
     return true;
 }
+
+namespace {
 
 std::vector<FreeBodies::Run> runs_of(const Model& model,
                                      const std::vector<FreeBodies::Whole>& wholes) {
@@ -81,13 +85,14 @@ std::unique_ptr<FreeBodies> FreeBodies::of(const Model& model) {
         if (end - begin < 2 || is_held(model, begin, end)) continue;
         wholes.push_back({begin, end, (begin + end) / 2});
     }
-    return wholes.empty() ? nullptr : std::make_unique<FreeBodies>(model, wholes);
+    if (wholes.empty()) return nullptr;
+    auto free = std::make_unique<FreeBodies>(model, wholes);
+    free->number_vertices(model);
+    return free;
 }
 
 FreeBodies::FreeBodies(const Model& model, const std::vector<Whole>& wholes)
-    : FreeBodies(model, wholes, shares_of_mass(model, wholes)) {
-    number_vertices(model);
-}
+    : FreeBodies(model, wholes, shares_of_mass(model, wholes)) {}
 
 FreeBodies::FreeBodies(const Model& model, const std::vector<Whole>& wholes, const Counted& counted)
     : runs_(runs_of(model, wholes)),
@@ -116,9 +121,7 @@ void FreeBodies::number_vertices(const Model& model) {
     run_of_ = std::make_unique<Buffer<int>>("free.run_of", at(model.vertex_count()));
     std::fill_n(run_of_->data(), run_of_->count(), run_count());
     for (int r = 0; r < run_count(); ++r) {
-        for (int v = run(r).begin; v < run(r).end; ++v) {
-            if (!is_held(model, v, v + 1)) (*run_of_)[at(v)] = r;
-        }
+        std::fill(run_of_->data() + run(r).begin, run_of_->data() + run(r).end, r);
     }
 }
 

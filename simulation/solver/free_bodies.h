@@ -13,9 +13,8 @@ namespace weft {
 
 /// What each body's runs are; see kernels/bodies/runs.h.
 struct BodyRuns {
-    Buffer<int>& first;        ///< [runs] the first one of the same body
-    Buffer<float>& counts;     ///< [runs] of that body's runs
-    Buffer<int>& of_vertices;  ///< [vertices] the last one plus 1 for those that something holds
+    Buffer<int>& first;     ///< [runs] the first one of the same body
+    Buffer<float>& counts;  ///< [runs] of that body's runs
     const Segments& by_strip;
 };
 
@@ -26,6 +25,9 @@ struct SumLayout {
 
     friend bool operator==(const SumLayout&, const SumLayout&) = default;
 };
+
+/// Whether vertices [begin, end) are of solids alone.
+bool is_solid(const Model& model, int begin, int end);
 
 /// The bodies that nothing holds, and how they are summed up (kernels/bodies/runs.h). A body is
 /// what hangs together by elements, attachments included; it is free where no vertex of it is held.
@@ -68,8 +70,9 @@ public:
     /// Those of strips [first_strip, end_strip).
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
-    /// Not where only some vertices are counted.
-    BodyRuns runs() { return {first_run_, counts_, *run_of_, runs_by_strip_}; }
+    BodyRuns runs() { return {first_run_, counts_, runs_by_strip_}; }
+    /// [vertices] the last one plus 1 for those of no free body. Of of()'s alone.
+    Buffer<int>& run_of_vertices() { return *run_of_; }
     /// Adds up columns for each run.
     Launch add_columns(Buffer<float4>& partials, Buffer<float4>& sums, const SumLayout& layout);
 
@@ -96,7 +99,7 @@ private:
     Buffer<int> rows_;           ///< [2 * columns] see the kernels for these and the following
     Buffer<int> first_run_;      ///< [runs]
     Buffer<float> counts_;       ///< [runs]
-    std::unique_ptr<Buffer<int>> run_of_;    ///< [vertices] see BodyRuns; null: some are counted
+    std::unique_ptr<Buffer<int>> run_of_;    ///< [vertices] null: some are held
     std::unique_ptr<Buffer<int>> members_;   ///< [entries]
     std::unique_ptr<Buffer<float>> shares_;  ///< [entries]
     std::vector<std::unique_ptr<Sums>> sums_;

@@ -16,6 +16,7 @@ namespace weft {
 namespace {
 
 constexpr int kParts = WEFT_PULL_PARTS;
+static_assert(kParts <= WEFT_MOMENT_PARTS, "they share their scratch");
 
 /// How hard what obstacles push is held: as in body_momentum.cpp; and, where bodies may touch each
 /// other, what others push and touch.
@@ -26,9 +27,38 @@ constexpr float kFirmly = 1e30f;
 /// what holds them are not moved.
 constexpr double kMostWay = 0.25;
 
+/// How far the middle of cloth is from its hinge, of its farthest vertex, at least: of a sheet it
+/// is half of it.
+constexpr double kToOneSide = 0.25;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 bool is_held(const Model& model, int vertex) { return (*model.positions)[at(vertex)].w <= 0.0f; }
+
+/// Whether a body goes as a whole. Solids do. Cloth does where it hangs to one side of a line or a
+/// point that it turns about: between places that hold it, it sags by bending, and what pulls at
+/// these says nothing of its middle. (Cloth held at opposite corners fell by a quarter less than
+/// before.)
+bool goes_as_a_whole(const Model& model, const FreeBodies::Whole& body, const BodyHinge& hinge) {
+    if (is_solid(model, body.begin, body.end)) return true;
+    if (!hinge.can_turn) return false;
+    const auto place = [&](int v) { return to_vec3((*model.positions)[at(v)]); };
+    const Vec3 from = place(hinge.from);
+    const Vec3 line = place(hinge.to) - from;
+    const double size = length(line);
+    const Vec3 axis = size > 0.0 ? (1.0 / size) * line : Vec3{};
+    Vec3 sum;
+    double mass = 0.0;
+    double farthest = 0.0;
+    for (int v = body.begin; v < body.end; ++v) {
+        const Vec3 r = place(v) - from;
+        const Vec3 across = r - dot(r, axis) * axis;
+        sum = sum + model.masses[at(v)] * across;
+        mass += model.masses[at(v)];
+        farthest = std::max(farthest, length(across));
+    }
+    return length(sum) > kToOneSide * mass * farthest;
+}
 
 std::vector<HeldBodies::Held> held_bodies(const Model& model) {
     const std::vector<int> begins = component_begins(model.vertex_count(), model.stencils());
@@ -42,7 +72,8 @@ std::vector<HeldBodies::Held> held_bodies(const Model& model) {
         }
         if (held.empty() || std::ssize(held) == end - begin) continue;
         const BodyHinge hinge = hinge_of(model, held);
-        bodies.push_back({{begin, end, hinge.from}, std::move(held), hinge});
+        const FreeBodies::Whole whole{begin, end, hinge.from};
+        if (goes_as_a_whole(model, whole, hinge)) bodies.push_back({whole, std::move(held), hinge});
     }
     return bodies;
 }
@@ -75,7 +106,8 @@ std::vector<int> most_held_corners(const Model& model) {
     return most;
 }
 
-/// Of each body, between a held and a free corner of an element [m].
+/// Of each body, between a held and a free corner of an element [m]. 0 where a tie has no length:
+/// it has no Hessian either, and says nothing of how it holds.
 std::vector<double> shortest_at_held(const Model& model,
                                      const std::vector<HeldBodies::Held>& bodies) {
     std::vector<double> shortest(bodies.size(), std::numeric_limits<double>::max());
@@ -131,9 +163,9 @@ HeldBodies::HeldBodies(Model& model, ContactResponse* contact, const std::vector
       items_(model.strips, held_vertices(bodies)),
       derivatives_(model, items_),
       holds_(model, wholes_of(bodies), counted_holds(model, items_)),
+      runs_("held.runs", at(bodies_.column_count())),
       ends_("held.ends", 2 * at(bodies_.run_count())),
       numbers_("held.numbers", 3 * at(bodies_.run_count())),
-      partials_("held.partials", at(kParts * holds_.column_count())),
       pulls_("held.pulls", at(kParts * (holds_.run_count() + holds_.most_runs()))),
       hinges_("held.hinges", ends_.count()),
       motions_("held.motions", 3 * at(bodies_.run_count() + 1)),
@@ -177,6 +209,7 @@ void HeldBodies::fill_runs(const std::vector<Held>& bodies) {
         for (int v = body.whole.begin; v < body.whole.end; ++v) {
             if (!is_held(model_, v)) mass += model_.masses[at(v)];
         }
+        std::fill_n(runs_.data() + WEFT_RUN_COLUMNS * r, WEFT_RUN_COLUMNS, r);
         ends_[at(r)] = body.hinge.from;
         ends_[at(runs + r)] = body.hinge.to;
         numbers_[at(r)] = static_cast<float>(model_.h * model_.h / mass);
@@ -225,9 +258,9 @@ void HeldBodies::add_pulls() {
     const BodyColumns columns = holds_.columns();
     body_.launches.push_back(launch(kernels::add_pulls, columns.by_strip, *positions_,
                                     items_.vertices(), derivatives_.sums(), columns.members,
-                                    columns.shares, columns.rows, moments_.origins(), partials_,
-                                    items_.count(), columns.count));
-    body_.launches.push_back(holds_.add_columns(partials_, pulls_, {kParts, 1, kParts}));
+                                    columns.shares, columns.rows, moments_.origins(),
+                                    moments_.partials(), items_.count(), columns.count));
+    body_.launches.push_back(holds_.add_columns(moments_.partials(), pulls_, {kParts, 1, kParts}));
 }
 
 void HeldBodies::add_sums(Step& step, const std::vector<Region>& regions, int iteration) {
@@ -265,12 +298,13 @@ void HeldBodies::add_end_reads(Step::Adding& task, const Region& region) {
 
 std::vector<Launch> HeldBodies::move(Buffer<float4>& deviations) {
     const BodyRuns runs = bodies_.runs();
+    const BodyColumns columns = bodies_.columns();
     return {launch(kernels::solve_held, runs.by_strip, moments_.sums(), pulls_, runs.first,
                    runs.counts, hinges_, numbers_, motions_, bodies_.most_runs(),
                    bodies_.run_count(), contact_ ? kFirmly : kHeld),
-            launch(kernels::move_runs, model_.vertices(), *model_.positions, deviations,
-                   *model_.velocities, motions_, runs.of_vertices,
-                   static_cast<float>(1.0 / model_.h), bodies_.run_count())};
+            launch(kernels::move_held, columns.by_strip, *model_.positions, deviations,
+                   *model_.velocities, motions_, columns.members, columns.shares, columns.rows,
+                   runs_, static_cast<float>(1.0 / model_.h), bodies_.run_count())};
 }
 
 void HeldBodies::add_move_accesses(Step::Adding& task) {

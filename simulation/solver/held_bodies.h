@@ -11,8 +11,9 @@
 
 namespace weft {
 
-/// Bodies of which some vertices are held: behind the last iteration each is moved as a whole by
-/// what makes E less (kernels/bodies/held_bodies.h).
+/// Solids of which some vertices are held, and cloth that hangs to one side of what holds it:
+/// behind the last iteration each is moved as a whole by what makes E less
+/// (kernels/bodies/held_bodies.h).
 class HeldBodies {
 public:
     /// Null: there are none. contact: null: none; both must outlive this. kind: of its task
@@ -66,9 +67,9 @@ private:
     VertexDerivatives derivatives_;
     FreeBodies holds_;                  ///< the same runs, of these items
     std::vector<VertexRange> seen_by_;  ///< [strips] what elements of held vertices have there
-    Buffer<int> ends_;                  ///< [2 * runs] see the kernels for these and the following
+    Buffer<int> runs_;                  ///< [columns] see the kernels for these and the following
+    Buffer<int> ends_;                  ///< [2 * runs]
     Buffer<float> numbers_;             ///< [3 * runs]
-    Buffer<float4> partials_;
     Buffer<float4> pulls_;
     Buffer<float4> hinges_;   ///< [2 * runs]
     Buffer<float4> motions_;  ///< [3 * (runs + 1)] each region makes those of its own runs

@@ -15,8 +15,8 @@ std::vector<Launch> LoneBodies::move(Model& model, Buffer<float4>& deviations) {
     return {launch(kernels::solve_runs, runs.by_strip, sums_.sums(), runs.first, runs.counts,
                    motions_, bodies_.most_runs(), bodies_.run_count(), held_),
             launch(kernels::move_runs, model.vertices(), *model.positions, deviations,
-                   *model.velocities, motions_, runs.of_vertices, static_cast<float>(1.0 / model.h),
-                   bodies_.run_count())};
+                   *model.velocities, motions_, bodies_.run_of_vertices(),
+                   static_cast<float>(1.0 / model.h), bodies_.run_count())};
 }
 
 }  // namespace weft

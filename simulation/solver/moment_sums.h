@@ -26,6 +26,8 @@ public:
 
     /// [columns], [9 * (runs + most_runs)] see the kernels
     Buffer<int>& origins() { return origins_; }
+    /// [9 * columns] scratch behind sum(): for other sums over the same columns.
+    Buffer<float4>& partials() { return partials_; }
     Buffer<float4>& sums() { return sums_; }
     void add_reads(Step::Adding& task);
 

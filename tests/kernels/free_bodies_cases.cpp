@@ -229,13 +229,35 @@ void solve_held_case(KernelCase& c) {
                       motions, kRows, c.items, 50.0f);
 }
 
+/// A column for each item, of two rows, over vertices of their own.
+void move_held_case(KernelCase& c) {
+    constexpr int kRuns = 3;
+    const int vertices = c.items + WEFT_RUN_COLUMNS;
+    auto& positions = add_points(c, "positions", vertices);
+    auto& deviations = add_points(c, "deviations", vertices);
+    auto& velocities = add_points(c, "velocities", vertices);
+    auto& motions = add_points(c, "motions", 3 * (kRuns + 1));
+    auto& members = c.add<int>("members", vertices);
+    for (int e = 0; e < vertices; ++e) members[at(e)] = vertices - 1 - e;
+    auto& shares = c.add<float>("shares", vertices);
+    for (float& share : shares.span()) share = static_cast<float>(c.random.integer(0, 1));
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = c.items <= WEFT_RUN_COLUMNS ? 2 : 1;
+    }
+    auto& runs = add_indices(c, "runs", c.items, kRuns);
+    c.launch = launch(kernels::move_held, c.segments, positions, deviations, velocities, motions,
+                      members, shares, rows, runs, 240.0f, kRuns);
+}
+
 const bool added = add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
                    add_case("move_runs", move_case) && add_case("push_velocities", push_case) &&
                    add_case("start_parts", start_parts_case) && add_case("pull_parts", pull_case) &&
                    add_case("step_parts", step_parts_case) &&
                    add_case("move_parts", move_parts_case) && add_case("see_held", see_held_case) &&
                    add_case("find_hinges", hinges_case) && add_case("add_pulls", pulls_case) &&
-                   add_case("solve_held", solve_held_case);
+                   add_case("solve_held", solve_held_case) && add_case("move_held", move_held_case);
 
 }  // namespace
 }  // namespace weft::test
