@@ -56,12 +56,9 @@ typedef struct {
     real inverse_x, inverse_y, inverse_z;
 } sym3_factors;
 
-/// A pivot that rounding made tiny or negative is lifted to 2e-7 of the trace: what counts as
-/// singular has no unit, so light materials and stiff ones are solved alike, and solutions have
-/// x^T b >= 0 always.
-WEFT_INLINE sym3_factors factor_sym(sym3 a) {
+/// Pivots below the least one are lifted to that.
+WEFT_INLINE sym3_factors factor_sym_above(sym3 a, real least) {
     sym3_factors f;
-    const real least = larger(trace_sym(a) * splat(2e-7f), splat(1e-30f));
     f.inverse_x = splat(1.0f) / larger(a.xx, least);
     f.l_yx = a.xy * f.inverse_x;
     f.l_zx = a.xz * f.inverse_x;
@@ -70,6 +67,13 @@ WEFT_INLINE sym3_factors factor_sym(sym3 a) {
     f.l_zy = yz * f.inverse_y;
     f.inverse_z = splat(1.0f) / larger(a.zz - f.l_zx * a.xz - f.l_zy * yz, least);
     return f;
+}
+
+/// A pivot that rounding made tiny or negative is lifted to 2e-7 of the trace: what counts as
+/// singular has no unit, so light materials and stiff ones are solved alike, and solutions have
+/// x^T b >= 0 always.
+WEFT_INLINE sym3_factors factor_sym(sym3 a) {
+    return factor_sym_above(a, larger(trace_sym(a) * splat(2e-7f), splat(1e-30f)));
 }
 
 WEFT_INLINE real3 solve_factored(sym3_factors f, real3 b) {

@@ -16,8 +16,9 @@
 //
 // which is a Galerkin correction with one aggregate, of six unknowns (cf. newton/coarse.h). Where
 // all that is held lies on a line or in a point, turns about there cost no element anything; stiff
-// elements make these small numbers beside large ones, and then there is a turn alone: at the
-// minimum of E the body lacks no angular momentum about the line, and what held it had no torque.
+// elements make these small numbers beside large ones, and then, and where elements would be led
+// farther than they are linear, there is a turn alone: at the minimum of E the body lacks no
+// angular momentum about the line, and what held it had no torque.
 //
 // How obstacles would answer is not known here: what they push moves the less, as if it were held
 // by some fifty times its inertia. Forces of other bodies are not in x~, as pushes are: what
@@ -127,18 +128,22 @@ WEFT_INLINE hold gather_hold(WEFT_GLOBAL const float4* table, int stride, intege
 
 /// Adds up held vertices by columns.
 /// positions  [vertices] xyz [m]
+/// now        [vertices] xyz: where what is held has been led to since then [m]; not read unless
+///            has_ways
 /// vertices   [held] the vertex of each
 /// sums       [9 * held] g and H of it; see descent/rows.h
 /// members, shares, rows  see runs.h, of numbers of held vertices: how many of each one's elements'
 ///            corners are held at most, 0 where a column has fewer
 /// origins    [columns] as in add_moments
 /// partials   [7 * columns] written, column-major
-WEFT_KERNEL(add_pulls, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const int* vertices,
-            WEFT_GLOBAL const float* sums, WEFT_GLOBAL const int* members,
-            WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* rows,
-            WEFT_GLOBAL const int* origins, WEFT_GLOBAL float4* partials, int held_count,
-            int column_count) {
+WEFT_KERNEL(add_pulls, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* now,
+            WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const float* sums,
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* origins,
+            WEFT_GLOBAL float4* partials, int held_count, int column_count, int has_ways) {
     const real3 origin = xyz(gather4(positions, load_index(origins, i)));
+    const real3 carried =
+        has_ways ? subtract(xyz(gather4(now, load_index(origins, i))), origin) : no_motion().shift;
     hold sum = no_hold();
     const int length = rows[2 * i.first + 1];
     for (int k = 0; k < length; ++k) {
@@ -146,14 +151,19 @@ WEFT_KERNEL(add_pulls, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const in
         const integer p = load_index(members, entry);
         const real share = load(shares, entry);
         const real own = share > splat(0.0f) ? splat(1.0f) : splat(0.0f);
-        const real3 r =
-            subtract(xyz(gather4(positions, address(gather_whole(vertices, p)))), origin);
-        const real3 g =
+        const integer v = address(gather_whole(vertices, p));
+        const real3 r = subtract(xyz(gather4(positions, v)), origin);
+        real3 g =
             make3(gather(sums, p), gather(sums + held_count, p), gather(sums + 2 * held_count, p));
         const sym3 block =
             make_sym(gather(sums + 3 * held_count, p), gather(sums + 4 * held_count, p),
                      gather(sums + 5 * held_count, p), gather(sums + 6 * held_count, p),
                      gather(sums + 7 * held_count, p), gather(sums + 8 * held_count, p));
+        if (has_ways) {
+            // What it is led by beside all of the body. (r is from the origin, as carried is.)
+            const real3 led = subtract(subtract(xyz(gather4(now, v)), origin), add(r, carried));
+            g = add(g, multiply_sym(block, led));
+        }
         sum.pull = add_scaled_motion(sum.pull, make_motion(g, cross3(r, g)), own);
         sum.form = add_scaled_sym6(sum.form, form_at_lever(block, r), share);
     }
@@ -215,6 +225,46 @@ WEFT_INLINE body_motion missing_beside(moments m, hold held) {
     return done;
 }
 
+/// How a body has to move about where it is held; not at all where what is known of its elements
+/// does not reach so far.
+/// numbers  [3 * runs] as in solve_held
+/// all      what holds it [N], [N/m]
+/// line     from a point that is held to the farthest one [m]
+/// held_by_others  as in solve_held
+WEFT_INLINE body_motion motion_beside(moments m, hold all, real3 line,
+                                      WEFT_GLOBAL const float* numbers, int run_count, item i,
+                                      float held_by_others) {
+    const real zero = splat(0.0f);
+    const real one = splat(1.0f);
+    const real per_inertia = load(numbers, i);
+    const hold held = {add_scaled_motion(no_motion(), all.pull, per_inertia),
+                       add_scaled_sym6(no_sym6(), all.form, per_inertia)};
+    const real3 axis = scale(line, one / divisor(length3(line)));
+    const real3 swing = scale(missing_swing(m, axis), load(numbers, column(i, run_count, 1)));
+    const body_motion beside = missing_beside(m, held);
+    // Numbers have seven digits, and of inertia some should be left. Elements are taken as linear,
+    // which they are for a part of their length.
+    const real3 at_other_end = add(beside.shift, cross3(beside.turn, line));
+    const real way = length3(beside.shift) + length3(at_other_end);
+    const mask is_soft = both(trace_sym(held.form.shift) < splat(3e4f),
+                              way < load(numbers, column(i, run_count, 2)));
+    const body_motion motion =
+        make_motion(make3(is_soft ? beside.shift.x : zero, is_soft ? beside.shift.y : zero,
+                          is_soft ? beside.shift.z : zero),
+                    make3(is_soft ? beside.turn.x : swing.x, is_soft ? beside.turn.y : swing.y,
+                          is_soft ? beside.turn.z : swing.z));
+    const real led = part_led(m.pushed * splat(held_by_others));
+    // Where all of a body is in a point, what turns it is infinitely easy to turn; and what is torn
+    // around by so much in a substep goes where no line points.
+    const mask is_sound =
+        both(dot3(motion.shift, motion.shift) < splat(1e12f),
+             dot3(motion.turn, motion.turn) < splat(WEFT_MOST_TURN * WEFT_MOST_TURN));
+    const real3 shift = scale(motion.shift, led), turn = scale(motion.turn, led);
+    return make_motion(
+        make3(is_sound ? shift.x : zero, is_sound ? shift.y : zero, is_sound ? shift.z : zero),
+        make3(is_sound ? turn.x : zero, is_sound ? turn.y : zero, is_sound ? turn.z : zero));
+}
+
 /// How far the body of each run has to move.
 /// sums       as in sum_from_origin
 /// pulls      as in sum_of_holds
@@ -230,42 +280,12 @@ WEFT_KERNEL(solve_held, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const float4
             WEFT_GLOBAL const int* first_run, WEFT_GLOBAL const float* counts,
             WEFT_GLOBAL const float4* hinges, WEFT_GLOBAL const float* numbers,
             WEFT_GLOBAL float4* motions, int most_runs, int run_count, float held_by_others) {
-    const real zero = splat(0.0f);
-    const real one = splat(1.0f);
     const whole first = load_whole(first_run, i);
     const moments m = sum_from_origin(sums, first, load(counts, i), most_runs);
     const hold all = sum_of_holds(pulls, first, load(counts, i), most_runs);
-    const real per_inertia = load(numbers, i);
-    const hold held = {add_scaled_motion(no_motion(), all.pull, per_inertia),
-                       add_scaled_sym6(no_sym6(), all.form, per_inertia)};
-
     const real3 line = xyz(load4(hinges, column(i, run_count, 1)));
-    const real3 axis = scale(line, one / divisor(length3(line)));
-    const real3 swing = scale(missing_swing(m, axis), load(numbers, column(i, run_count, 1)));
-    const body_motion beside = missing_beside(m, held);
-    // Numbers have seven digits, and of inertia some should be left.
-    const mask is_soft = trace_sym(held.form.shift) < splat(3e4f);
-    const body_motion motion =
-        make_motion(make3(is_soft ? beside.shift.x : zero, is_soft ? beside.shift.y : zero,
-                          is_soft ? beside.shift.z : zero),
-                    make3(is_soft ? beside.turn.x : swing.x, is_soft ? beside.turn.y : swing.y,
-                          is_soft ? beside.turn.z : swing.z));
-    // Elements are taken as linear, which they are for a part of their length.
-    const real3 at_other_end = add(motion.shift, cross3(motion.turn, line));
-    const real way = length3(motion.shift) + length3(at_other_end);
-    const mask is_near = way < load(numbers, column(i, run_count, 2));
-    const real led = is_near ? part_led(m.pushed * splat(held_by_others)) : zero;
-    // Where all of a body is in a point, what turns it is infinitely easy to turn; and what is torn
-    // around by so much in a substep goes where no line points.
-    const mask is_sound =
-        both(dot3(motion.shift, motion.shift) < splat(1e12f),
-             dot3(motion.turn, motion.turn) < splat(WEFT_MOST_TURN * WEFT_MOST_TURN));
-    const real3 shift = scale(motion.shift, led), turn = scale(motion.turn, led);
-    store_motion(
-        motions, run_count + 1, i,
-        make_motion(
-            make3(is_sound ? shift.x : zero, is_sound ? shift.y : zero, is_sound ? shift.z : zero),
-            make3(is_sound ? turn.x : zero, is_sound ? turn.y : zero, is_sound ? turn.z : zero)));
+    store_motion(motions, run_count + 1, i,
+                 motion_beside(m, all, line, numbers, run_count, i, held_by_others));
     store4(motions, column(i, run_count + 1, 2), load4(hinges, i));
 }
 

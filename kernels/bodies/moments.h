@@ -8,6 +8,8 @@
 // for that, but the mean of r (x~ - x)^T. All is summed up from a vertex of the body, as numbers
 // are too coarse for squares of coordinates far from the origin.
 #define WEFT_MOMENT_PARTS 9
+/// Those that there are without pushes.
+#define WEFT_STILL_PARTS 7
 
 #include "kernels/bodies/motions.h"
 #include "kernels/bodies/runs.h"
@@ -57,8 +59,9 @@ WEFT_INLINE moments add_share_of_moments(moments a, moments b, real share) {
     return a;
 }
 
-/// table  [9 * rows] column-major: a column per part
-WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m) {
+/// table  [9 * rows] column-major: a column per part; the last two are those of pushes
+WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, moments m,
+                               int has_pushes) {
     const real4 rest = {m.spread.xy, m.spread.xz, m.spread.yy, m.spread.yz};
     store4(table, i, with_w(m.centre, m.spread.xx));
     store4(table, column(i, rows, 1), rest);
@@ -67,6 +70,7 @@ WEFT_INLINE void store_moments(WEFT_GLOBAL float4* table, int rows, item i, mome
     store4(table, column(i, rows, 4), with_w(m.lags.y, m.lag.y));
     store4(table, column(i, rows, 5), with_w(m.lags.z, m.lag.z));
     store4(table, column(i, rows, 6), with_w(m.push, m.pushed));
+    if (!has_pushes) return;
     store4(table, column(i, rows, 7), with_w(m.way, m.lead));
     store4(table, column(i, rows, 8), with_w(m.torque, splat(0.0f)));
 }
@@ -103,7 +107,7 @@ WEFT_INLINE moments gather_moments(WEFT_GLOBAL const float4* table, int stride, 
 ///            has_pushes
 /// members, shares, rows  see runs.h
 /// origins   [columns] a vertex of the column's body, the same for all columns of it
-/// partials  [9 * columns] written, column-major
+/// partials  [9 * columns] written, column-major; 7 * columns unless has_pushes
 WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* targets,
             WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* starts,
             WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
@@ -134,7 +138,7 @@ WEFT_KERNEL(add_moments, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         }
         sum = add_share_of_moments(sum, one, load(shares, entry));
     }
-    store_moments(partials, column_count, i, sum);
+    store_moments(partials, column_count, i, sum, has_pushes);
 }
 
 /// The moments of a body, from the vertex that its columns begin at.
@@ -200,7 +204,7 @@ WEFT_KERNEL(weigh_bodies, WEFT_GLOBAL const float4* sums, WEFT_GLOBAL const int*
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL float4* moments_of, int most_runs,
             int body_count) {
     const moments sum = sum_of_runs(sums, load_whole(first_run, i), load(counts, i), most_runs);
-    store_moments(moments_of, body_count + 1, i, sum);
+    store_moments(moments_of, body_count + 1, i, sum, 1);
 }
 
 /// What turns of a body have to overcome [m^2], in parts of its mass. Where all of it lies on a

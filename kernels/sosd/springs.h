@@ -37,7 +37,10 @@ WEFT_KERNEL(solve_spring_stencils, WEFT_GLOBAL float4* positions, WEFT_GLOBAL co
     const real3 kw = multiply_sym(k, w);
     const sym3 left = add_sym(b.stiffness, make_sym(-ku.x, -ku.y, -ku.z, -kv.y, -kv.z, -kw.z));
     const real3 alone = solve_factored(factors, a.force);
-    const real3 step_b = solve_sym(left, add(b.force, multiply_sym(k, alone)));
+    // What is left is a difference, rounded as what it is one of.
+    const real least = larger(trace_sym(b.stiffness) * splat(1e-6f), splat(1e-30f));
+    const real3 step_b =
+        solve_factored(factor_sym_above(left, least), add(b.force, multiply_sym(k, alone)));
     const real3 carried = add(add(scale(u, step_b.x), scale(v, step_b.y)), scale(w, step_b.z));
 
     move_vertex(positions, a, add(alone, carried));

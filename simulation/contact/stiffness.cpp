@@ -4,6 +4,7 @@
 
 #include "simulation/contact/knots.h"
 #include "simulation/families/convert.h"
+#include "simulation/model/rest_stiffness.h"
 
 namespace weft {
 
@@ -11,19 +12,13 @@ namespace {
 
 constexpr double kHeld = 1e30;
 
-/// Adds a third of the trace of each corner's own block.
 void add_elements(const ElementFamily& family, std::span<const float4> positions,
                   std::vector<double>& sums) {
-    std::array<Mat3, kMaxCorners * kMaxCorners> blocks;
     for (int e = 0; e < family.count(); ++e) {
         const auto corners = family.corners(e);
-        const auto x = family.positions_of(e, positions);
-        family.hessian(e, x.data(), blocks.data());
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const auto& rows = blocks[k * corners.size() + k].rows;
-            const double third = (rows[0].x + rows[1].y + rows[2].z) / 3.0;
-            sums[static_cast<std::size_t>(corners[k])] += std::max(third, 0.0);
-        }
+        const auto stiffness = rest_stiffness(family, e, positions);
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            sums[static_cast<std::size_t>(corners[k])] += stiffness[k];
     }
 }
 

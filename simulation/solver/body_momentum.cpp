@@ -97,7 +97,7 @@ void BodyMomentum::add_lone_sums(Step& step, const std::vector<Region>& regions,
         const int last = model_.vertices().item(region.end);
         auto task = step.add(sums_, iteration, region.strips(), region.id);
         task.reads(targets_, first, last).reads(*positions_, first, last);
-        lone_->sums().add_sum_accesses(task, region);
+        lone_->sums().add_sum_accesses(task, region, starts_.get());
         lone_->sums().add_origin_reads(task, region, *positions_);
     }
 }
@@ -155,7 +155,7 @@ void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
     if (!has_bodies()) return;
     if (touching_) touching_->add_motion_accesses(task);
     if (lone_) lone_->add_move_accesses(task);
-    if (held_) held_->add_move_accesses(task);
+    if (held_) held_->add_move_accesses(task, strips);
     if (contact_) contact_->add_truncation_accesses(task, strips);
     const int first = model_.vertices().item(strips.begin);
     const int last = model_.vertices().item(strips.end);
@@ -166,14 +166,14 @@ void BodyMomentum::add_move_accesses(Step::Adding& task, StripRange strips) {
 void BodyMomentum::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (free_bodies_) bodies.push_back(&sums_);
     if (touching_) std::ranges::copy(touching_->bodies(), std::back_inserter(bodies));
-    if (held_) bodies.push_back(&held_->sums());
+    if (held_) bodies.push_back(&held_->body());
 }
 
 std::vector<std::string> BodyMomentum::kinds() const {
     std::vector<std::string> names;
     if (free_bodies_) names.push_back(sums_.name);
     if (touching_) std::ranges::copy(touching_->kinds(), std::back_inserter(names));
-    if (held_) names.push_back(held_->sums().name);
+    if (held_) names.push_back(held_->body().name);
     return names;
 }
 

@@ -35,6 +35,7 @@ public:
                  Buffer<float4>& targets, Solves solves, int first_kind);
 
     bool has_bodies() const { return free_bodies_ || held_; }
+    HeldBodies* held() { return held_.get(); }  ///< null: none
     /// Null: nothing is free.
     const FreeBodies* bodies() const { return free_bodies_.get(); }
 

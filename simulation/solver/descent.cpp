@@ -24,6 +24,10 @@ int DescentSubstep::next_kind() const {
 
 void DescentSubstep::lead_tied_parts() { ties_ = TiedParts::of(model_, targets_, next_kind()); }
 
+void DescentSubstep::choose_starts(const StiffStarts::Setting& setting) {
+    starts_ = StiffStarts::of(model_, momentum_.held(), setting, next_kind());
+}
+
 void DescentSubstep::lead_bodies() {
     lead_ = {"lead", next_kind(), {}};
     momentum_.add_lead(lead_.launches);
@@ -33,7 +37,8 @@ void DescentSubstep::add_lead(Step& step, const std::vector<Region>& regions) {
     momentum_.add_lead_tasks(step, lead_, regions);
 }
 
-void DescentSubstep::add_start(Step& step) {
+void DescentSubstep::add_start(Step& step, const std::vector<Region>& regions) {
+    if (starts_) starts_->add(step, regions);
     if (ties_) ties_->add(step);
 }
 
@@ -76,6 +81,7 @@ void DescentSubstep::list_bodies(std::vector<const TaskBody*>& bodies) const {
     if (contact_) std::ranges::copy(contact_->bodies(), std::back_inserter(bodies));
     momentum_.list_bodies(bodies);
     if (ties_) bodies.push_back(&ties_->body());
+    if (starts_) std::ranges::copy(starts_->bodies(), std::back_inserter(bodies));
     if (!lead_.launches.empty()) bodies.push_back(&lead_);
     if (narrow_) narrow_->list_bodies(bodies);
     if (reactions_) reactions_->list_bodies(bodies);
@@ -87,6 +93,7 @@ void DescentSubstep::list_kinds(std::vector<std::string>& kinds) const {
     if (ties_) std::ranges::copy(TiedParts::kinds(), std::back_inserter(kinds));
     if (!lead_.launches.empty()) kinds.push_back(lead_.name);
     if (narrow_) std::ranges::copy(narrow_->kinds(), std::back_inserter(kinds));
+    if (starts_) std::ranges::copy(StiffStarts::kinds(), std::back_inserter(kinds));
     if (reactions_) std::ranges::copy(Reactions::kinds(), std::back_inserter(kinds));
 }
 
@@ -94,6 +101,7 @@ std::vector<BufferStorage*> DescentSubstep::state() {
     std::vector<BufferStorage*> buffers{&targets_};
     if (contact_) std::ranges::copy(contact_->state(), std::back_inserter(buffers));
     if (momentum_.resting()) buffers.push_back(&momentum_.resting()->slips());
+    if (starts_ && starts_->state()) buffers.push_back(starts_->state());
     return buffers;
 }
 

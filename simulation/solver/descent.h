@@ -12,6 +12,7 @@
 #include "simulation/solver/halo.h"
 #include "simulation/solver/narrow_task.h"
 #include "simulation/solver/reactions.h"
+#include "simulation/solver/stiff_starts.h"
 #include "simulation/solver/tied_parts.h"
 
 namespace weft {
@@ -32,8 +33,10 @@ public:
 
     /// Lets what soft ties hold begin where these lead it as a whole.
     void lead_tied_parts();
+    /// Lets what is stiff start from the shape it had, where that is the better start.
+    void choose_starts(const StiffStarts::Setting& setting);
     /// Behind the beginnings of all regions.
-    void add_start(Step& step);
+    void add_start(Step& step, const std::vector<Region>& regions);
 
     /// Leads bodies as wholes before the first iteration, too, where there is reason to.
     void lead_bodies();
@@ -88,6 +91,7 @@ private:
     std::unique_ptr<ContactResponse> contact_;
     BodyMomentum momentum_;
     std::unique_ptr<TiedParts> ties_;       ///< null: none, or nobody asked for it
+    std::unique_ptr<StiffStarts> starts_;   ///< null: likewise
     TaskBody lead_;                         ///< empty: bodies are led behind iterations alone
     std::unique_ptr<NarrowTask> narrow_;    ///< null: no narrow obstacles
     std::unique_ptr<Reactions> reactions_;  ///< null: no obstacles that push free bodies

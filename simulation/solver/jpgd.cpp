@@ -120,7 +120,7 @@ public:
         const auto regions = regions_of(partition);
         Step step;
         for (const Region& region : regions) substep_.add_begin(step, predict_, region);
-        substep_.add_start(step);
+        substep_.add_start(step, regions);
         substep_.add_first_narrow(step, regions);
         if (contact_ != nullptr) contact_->add_detection(step, regions);
         substep_.add_lead(step, regions);
@@ -190,6 +190,14 @@ private:
         substep_.lead_tied_parts();
         substep_.lead_bodies();
         substep_.keep_triangles_out({&after(0), &after(1)}, /*snapshots=*/false);
+        substep_.choose_starts({substep_.targets(),
+                                items_,
+                                derivatives_,
+                                {kInnerPhase},
+                                /*keeps_blocks=*/true,
+                                halo_,
+                                substep_.contact(),
+                                /*solves_all=*/false});
         substep_.look_at_reactions(items_, derivatives_, {kInnerPhase}, after(iterations_),
                                    /*keeps_blocks=*/true);
         velocities_ = {"velocities", kVelocities, {}};

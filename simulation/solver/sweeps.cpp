@@ -23,6 +23,14 @@ void SweepSolver::add_sweep(const VertexLayout& layout,
     sweep.seams = {"seams", kSeams, {}};
     sweep.strips = {"strips", kStrips, {}};
     if (sweeps_.size() == 1) {
+        substep_.choose_starts({substep_.targets(),
+                                sweep.items,
+                                sweep.derivatives,
+                                {kSeamPhase, kInnerPhase},
+                                /*keeps_blocks=*/false,
+                                halo_,
+                                substep_.contact(),
+                                /*solves_all=*/false});
         substep_.look_at_reactions(sweep.items, sweep.derivatives, {kSeamPhase, kInnerPhase},
                                    *model_.positions);
     }
@@ -88,7 +96,7 @@ Step SweepSolver::make_step(const Partition& partition) {
     const int iterations = model_.scene.solver.iterations;
     Step step;
     for (const Region& region : regions) substep_.add_begin(step, predict_, region);
-    substep_.add_start(step);
+    substep_.add_start(step, regions);
     if (substep_.contact() != nullptr) substep_.contact()->add_detection(step, regions);
     substep_.add_lead(step, regions);
     for (int i = 0; i < iterations; ++i) {

@@ -162,12 +162,16 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
     return sum_round({.is_rubbed = is_rubbed_});
 }
 
+/// As moments see them.
+Buffer<float4>* TouchingBodies::starts() {
+    return resting_ ? &resting_->starts() : obstacles_.starts;
+}
+
 std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
     std::vector<Launch> launches;
     if (resting_) launches.push_back(resting_->see(*targets_, obstacles_));
     Buffer<float4>& targets = resting_ ? resting_->targets() : *targets_;
-    Buffer<float4>* starts = resting_ ? &resting_->starts() : obstacles_.starts;
-    std::ranges::move(moments_.sums().sum(model_, positions, targets, starts),
+    std::ranges::move(moments_.sums().sum(model_, positions, targets, starts()),
                       std::back_inserter(launches));
     if (solids_)
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
@@ -233,7 +237,7 @@ void TouchingBodies::add_collection(Step& step, const TaskBody& body, const Regi
     auto task = step.add(body, iteration, region.strips(), region.id);
     task.reads(*targets_, first, last).reads(positions, 0, model_.vertex_count());
     pushes_.add_collect_accesses(task, region, first, last);
-    moments_.sums().add_sum_accesses(task, region);
+    moments_.sums().add_sum_accesses(task, region, starts());
     if (solids_) solids_->add_sum_accesses(task, region);
     if (resting_) resting_->add_collect_accesses(task, obstacles_, first, last);
 }

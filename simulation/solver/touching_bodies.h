@@ -58,6 +58,7 @@ private:
     TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
                    std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers, float held,
                    int first_kind);
+    Buffer<float4>* starts();
     std::vector<Launch> collect(Buffer<float4>& positions);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();

@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "kernels/bodies/free_bodies.h"
 #include "kernels/bodies/held_bodies.h"
+#include "kernels/bodies/starts.h"
 #include "kernels/bodies/ties.h"
 #include "tests/kernels/kernel_case.h"
 
@@ -179,6 +182,7 @@ void pulls_case(KernelCase& c) {
     constexpr int kHeld = 5;
     const int entries = c.items + WEFT_RUN_COLUMNS;
     auto& positions = add_points(c, "positions", c.items);
+    auto& now = add_points(c, "now", c.items);
     auto& vertices = add_indices(c, "vertices", kHeld, c.items);
     auto& sums = c.add<float>("sums", 9 * kHeld);
     for (float& value : sums.span()) value = c.random.real(-1.0f, 1.0f);
@@ -192,14 +196,12 @@ void pulls_case(KernelCase& c) {
     }
     auto& origins = add_indices(c, "origins", c.items, c.items);
     auto& partials = c.add<float4>("partials", WEFT_PULL_PARTS * c.items);
-    c.launch = launch(kernels::add_pulls, c.segments, positions, vertices, sums, members, shares,
-                      rows, origins, partials, kHeld, c.items);
+    c.launch = launch(kernels::add_pulls, c.segments, positions, now, vertices, sums, members,
+                      shares, rows, origins, partials, kHeld, c.items, c.random.integer(0, 1));
 }
 
-/// Bodies held by two vertices, softly or hard, or by nothing.
-void solve_held_case(KernelCase& c) {
-    const int runs = c.items + kRows;
-    auto& sums = add_sums(c, runs);
+/// Of bodies held by two vertices, softly or hard, or by nothing.
+Buffer<float4>& add_holds(KernelCase& c, int runs) {
     auto& pulls = c.add<float4>("pulls", WEFT_PULL_PARTS * runs);
     for (int r = 0; r < runs; ++r) {
         kernels::hold h = kernels::no_hold();
@@ -214,19 +216,137 @@ void solve_held_case(KernelCase& c) {
         }
         kernels::store_hold(pulls.data() + WEFT_PULL_PARTS * r, 1, {0, 1}, h);
     }
-    auto& first = add_indices(c, "first_run", c.items, c.items);
+    return pulls;
+}
+
+Buffer<float>& add_run_counts(KernelCase& c) {
     auto& counts = c.add<float>("counts", c.items);
     for (float& count : counts.span()) count = static_cast<float>(c.random.integer(1, kRows));
-    auto& hinges = add_points(c, "hinges", 2 * c.items);
+    return counts;
+}
+
+Buffer<float>& add_run_numbers(KernelCase& c) {
     auto& numbers = c.add<float>("numbers", 3 * c.items);
     for (int r = 0; r < c.items; ++r) {
         numbers[at(r)] = c.random.real(0.1f, 1.0f);
         numbers[at(2 * c.items + r)] = c.random.real(0.01f, 1.0f);
         numbers[at(c.items + r)] = static_cast<float>(c.random.integer(0, 1));
     }
+    return numbers;
+}
+
+Buffer<float>& add_margins(KernelCase& c) {
+    auto& margins = c.add<float>("margins", c.items);
+    for (float& margin : margins.span())
+        margin = 0.1f * static_cast<float>(c.random.integer(-1, 1));
+    return margins;
+}
+
+void solve_held_case(KernelCase& c) {
+    const int runs = c.items + kRows;
+    auto& sums = add_sums(c, runs);
+    auto& pulls = add_holds(c, runs);
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = add_run_counts(c);
+    auto& hinges = add_points(c, "hinges", 2 * c.items);
+    auto& numbers = add_run_numbers(c);
     auto& motions = c.add<float4>("motions", 3 * (c.items + 1));
     c.launch = launch(kernels::solve_held, c.segments, sums, pulls, first, counts, hinges, numbers,
                       motions, kRows, c.items, 50.0f);
+}
+
+void carries_case(KernelCase& c) {
+    auto& before = add_points(c, "before", c.items);
+    auto& now = add_points(c, "now", c.items);
+    for (int v = 0; v < c.items; ++v) now[at(v)].w *= static_cast<float>(v % 3 == 0);
+    auto& ends = add_indices(c, "ends", c.items, c.items);
+    auto& carries = c.add<float4>("carries", c.items);
+    c.launch = launch(kernels::find_carries, c.segments, before, now, ends, carries);
+}
+
+void solve_starts_case(KernelCase& c) {
+    const int runs = c.items + kRows;
+    auto& sums = add_sums(c, runs);
+    auto& pulls = add_holds(c, runs);
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = add_run_counts(c);
+    auto& hinges = add_points(c, "hinges", 2 * c.items);
+    auto& carries = add_points(c, "carries", c.items);
+    auto& numbers = add_run_numbers(c);
+    auto& margins = add_margins(c);
+    auto& motions = c.add<float4>("motions", 3 * (c.items + 1));
+    c.launch = launch(kernels::solve_starts, c.segments, sums, pulls, first, counts, hinges,
+                      carries, numbers, margins, motions, kRows, c.items);
+}
+
+constexpr int kStartRuns = 3;
+
+void weigh_starts_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    for (int v = 0; v < c.items; v += 4) positions[at(v)].w = 0.0f;
+    auto& previous = add_points(c, "previous", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    auto& motions = add_points(c, "motions", 3 * (kStartRuns + 1));
+    auto& carries = add_points(c, "carries", kStartRuns + 1);
+    auto& run_of = add_indices(c, "run_of", c.items, kStartRuns + 1);
+    auto& vertices = c.add<int>("vertices", c.items);
+    for (int i = 0; i < c.items; ++i) vertices[at(i)] = c.items - 1 - i;
+    auto& sums = c.add<float>("sums", 9 * c.items);
+    for (float& value : sums.span()) value = c.random.real(-1.0f, 1.0f);
+    auto& rises = c.add<float>("rises", c.items);
+    c.launch = launch(kernels::weigh_starts, c.segments, positions, previous, targets, motions,
+                      carries, run_of, vertices, sums, rises, c.items, 1e3f, kStartRuns);
+}
+
+/// A column for each item, of two rows.
+void rises_case(KernelCase& c) {
+    const int entries = c.items + WEFT_RUN_COLUMNS;
+    auto& rises = c.add<float>("rises", c.items);
+    for (float& rise : rises.span()) rise = c.random.real(-1.0f, 1.0f);
+    auto& members = add_indices(c, "members", entries, c.items);
+    auto& shares = c.add<float>("shares", entries);
+    for (float& share : shares.span()) share = static_cast<float>(c.random.integer(0, 1));
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = 2;
+    }
+    auto& partials = c.add<float4>("partials", c.items);
+    c.launch = launch(kernels::add_rises, c.segments, rises, members, shares, rows, partials);
+}
+
+void choose_starts_case(KernelCase& c) {
+    auto& rises = add_points(c, "rises", c.items + kRows);
+    for (float4& rise : rises.span()) rise.x += c.random.real(-0.5f, 0.5f);
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = add_run_counts(c);
+    auto& margins = add_margins(c);
+    auto& touched = c.add<float>("touched", c.items);
+    for (float& share : touched.span())
+        share = 0.1f * static_cast<float>(std::max(c.random.integer(-2, 1), 0));
+    auto& chosen = c.add<float>("chosen", c.items + 1);
+    c.launch = launch(kernels::choose_starts, c.segments, rises, first, counts, margins, touched,
+                      chosen, kRows, c.random.integer(0, 1));
+}
+
+void start_moved_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    for (int v = 0; v < c.items; v += 4) positions[at(v)].w = 0.0f;
+    auto& previous = add_points(c, "previous", c.items);
+    auto& motions = add_points(c, "motions", 3 * (kStartRuns + 1));
+    auto& chosen = c.add<float>("chosen", kStartRuns + 1);
+    for (int r = 0; r < kStartRuns; r += 2) chosen[at(r)] = 1.0f;
+    auto& run_of = add_indices(c, "run_of", c.items, kStartRuns + 1);
+    c.launch = launch(kernels::start_moved, c.segments, positions, previous, motions, chosen,
+                      run_of, kStartRuns);
+}
+
+void touched_case(KernelCase& c) {
+    auto& sums = add_sums(c, c.items + kRows);
+    auto& first = add_indices(c, "first_run", c.items, c.items);
+    auto& counts = add_run_counts(c);
+    auto& touched = c.add<float>("touched", c.items);
+    c.launch = launch(kernels::keep_touched, c.segments, sums, first, counts, touched, kRows);
 }
 
 /// A column for each item, of two rows, over vertices of their own.
@@ -251,13 +371,17 @@ void move_held_case(KernelCase& c) {
                       members, shares, rows, runs, 240.0f, kRuns);
 }
 
-const bool added = add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
-                   add_case("move_runs", move_case) && add_case("push_velocities", push_case) &&
-                   add_case("start_parts", start_parts_case) && add_case("pull_parts", pull_case) &&
-                   add_case("step_parts", step_parts_case) &&
-                   add_case("move_parts", move_parts_case) && add_case("see_held", see_held_case) &&
-                   add_case("find_hinges", hinges_case) && add_case("add_pulls", pulls_case) &&
-                   add_case("solve_held", solve_held_case) && add_case("move_held", move_held_case);
+const bool added =
+    add_case("add_columns", columns_case) && add_case("solve_runs", solve_case) &&
+    add_case("move_runs", move_case) && add_case("push_velocities", push_case) &&
+    add_case("start_parts", start_parts_case) && add_case("pull_parts", pull_case) &&
+    add_case("step_parts", step_parts_case) && add_case("move_parts", move_parts_case) &&
+    add_case("see_held", see_held_case) && add_case("find_hinges", hinges_case) &&
+    add_case("add_pulls", pulls_case) && add_case("solve_held", solve_held_case) &&
+    add_case("move_held", move_held_case) && add_case("find_carries", carries_case) &&
+    add_case("solve_starts", solve_starts_case) && add_case("weigh_starts", weigh_starts_case) &&
+    add_case("add_rises", rises_case) && add_case("choose_starts", choose_starts_case) &&
+    add_case("start_moved", start_moved_case) && add_case("keep_touched", touched_case);
 
 }  // namespace
 }  // namespace weft::test

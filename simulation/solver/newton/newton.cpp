@@ -87,6 +87,7 @@ public:
         regions_ = regions_of(partition);
         Step step;
         for (const Region& region : regions_) add_predict(step, region);
+        substep_.add_start(step, regions_);
         substep_.add_first_narrow(step, regions_);
         number_ = 0;
         if (contact_ != nullptr) contact_->add_detection(step, regions_);
@@ -148,6 +149,14 @@ private:
         make_control_bodies();
         substep_.momentum().look_at(*model_.positions);
         substep_.keep_triangles_out({model_.positions.get()}, /*snapshots=*/true);
+        substep_.choose_starts({substep_.targets(),
+                                smoother_.items,
+                                smoother_.derivatives,
+                                {kSeamPhase, kInnerPhase},
+                                /*keeps_blocks=*/false,
+                                gradients_.halo(),
+                                substep_.contact(),
+                                /*solves_all=*/true});
         substep_.look_at_reactions(smoother_.items, smoother_.derivatives,
                                    {kSeamPhase, kInnerPhase}, *model_.positions);
         velocities_ = {"velocities", kVelocities, substep_.end()};

@@ -31,9 +31,17 @@ bool speaks_of_motion(const std::string& said) {
     return said.find("since the start") != std::string::npos;
 }
 
+/// Far away. Where there is no obstacle at all, steps of all stiff bodies start where nothing is
+/// strained, and what follows is mended.
+const std::string kPlane = R"(
+[[obstacle]]
+shape = "plane"
+point = [0.0, -100.0, 0.0]
+)";
+
 /// Held at its rim it sags by 0.3 mm, and by ten times as much in steps that carry little: with
 /// half a per cent of strain, and with energy that gravity gives.
-const std::string kTube = R"(
+const std::string kTube = kPlane + R"(
 [scene]
 frames = 24
 dt = 0.016666667
@@ -98,7 +106,7 @@ young = 1.0e6
 poisson = 0.45
 pins = { faces = ["x-"] }
 )"));
-    EXPECT_EQ(said.empty(), GetParam() == Method::kNewton) << said;
+    EXPECT_EQ(said.empty(), GetParam() != Method::kXpbd) << said;
     if (GetParam() == Method::kXpbd) {
         EXPECT_NE(said.find("solid 'beam' has moved by"), std::string::npos) << said;
     }
@@ -160,7 +168,7 @@ bool speaks_of_places(const std::string& said) {
 TEST_P(UnsolvedMotion, ThatIsTooSlowIsTold) {
     std::string text = kSwing;
     text.replace(text.find("[12, 12]"), 8, "[20, 20]");
-    Scene scene = scene_of(text + "pins = { corners = [\"x-z-\", \"x+z+\"] }\n");
+    Scene scene = scene_of(text + "pins = { corners = [\"x-z-\", \"x+z+\"] }\n" + kPlane);
     scene.substeps = 2;
     scene.cloths[0].stretch.stiffness = 1e4;
     const Method method = GetParam();

@@ -180,13 +180,13 @@ membrane = { young = 1.0e6, poisson = 0.3, thickness = 1.0e-3 }
 pins = { edges = ["x-"] }
 )");
     const Strained run = strained_by(scene);
-    const bool gives_way = GetParam() != Method::kNewton;
+    const bool gives_way = GetParam() == Method::kXpbd;
     EXPECT_EQ(run.most > 0.1, gives_way) << run.most;
     EXPECT_EQ(run.is_told, gives_way) << run.most;
 }
 
-/// A cloth that its pins tear along faster than waves run in it: there is energy for anything, and
-/// iterations that do not solve the steps show.
+/// A cloth that pins on two sides tear along faster than waves run in it: there is energy for
+/// anything, and iterations that do not solve the steps show. (The plane is far away.)
 TEST_P(EveryWrong, SupersonicPinsAreNoExcuse) {
     const Scene scene = scene_of(R"(
 [scene]
@@ -200,7 +200,10 @@ grid = { size = [1.5, 1.0], resolution = [30, 20] }
 rotate = [1.0, 0.0, 0.0, 90.0]
 density = 0.15
 stretch = { stiffness = 2.0e4 }
-pins = { edges = ["x-"], motion = { velocity = [0.0, 0.0, 300.0] } }
+pins = { edges = ["x-", "x+"], motion = { velocity = [0.0, 0.0, 300.0] } }
+[[obstacle]]
+shape = "plane"
+point = [0.0, -100.0, 0.0]
 )");
     const std::string said = said_by(scene);
     EXPECT_EQ(said.empty(), GetParam() == Method::kNewton) << said;
@@ -230,8 +233,7 @@ motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
     const bool gives_way = GetParam() != Method::kXpbd && GetParam() != Method::kNewton;
     if (gives_way) scene.substeps = 1;
     const Strained run = strained_by(scene);
-    EXPECT_EQ(run.most > 0.3, gives_way) << run.most;
-    EXPECT_EQ(run.most > 0.2, gives_way) << run.most;
+    EXPECT_EQ(run.most > 0.15, gives_way) << run.most;
     // xpbd keeps its edges, but changes volumes: twenty times the energy that there should be.
     EXPECT_EQ(run.is_told, GetParam() != Method::kNewton) << run.most;
 }
@@ -254,13 +256,13 @@ motion = { angular_velocity = 20000.0, center = [-0.5, 0.0, 0.0] }
     const bool gives_way = GetParam() != Method::kNewton;
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.1, gives_way) << run.most;
-    EXPECT_LT(run.most, 0.3);
+    EXPECT_LT(run.most, 0.4);
     EXPECT_EQ(run.is_told, gives_way) << run.most;
 }
 
 /// A beam of which solved steps let no more than 2 mm go, and others 10 cm: at 2 % of strain.
 TEST_P(EveryWrong, ABeamThatSagsIsSeen) {
-    Scene scene = scene_of(R"(
+    const Scene scene = scene_of(R"(
 [scene]
 frames = 30
 dt = 0.016666667
@@ -272,11 +274,7 @@ young = 1.0e8
 poisson = 0.3
 pins = { faces = ["x-"] }
 )");
-    const bool gives_way = GetParam() != Method::kNewton;
-    if (gives_way && GetParam() != Method::kXpbd) {
-        scene.substeps = 1;
-        scene.solver.iterations = 10;
-    }
+    const bool gives_way = GetParam() == Method::kXpbd;
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.005, gives_way) << run.most;
     EXPECT_LT(run.most, 0.02);
