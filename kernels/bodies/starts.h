@@ -73,24 +73,38 @@ WEFT_INLINE real3 moved_as_whole(real3 before, WEFT_GLOBAL const float4* motions
     return add(before, way_of_motion(motion, subtract(before, centre)));
 }
 
+/// The run of a vertex; the last one plus 1 where it is in none.
+/// bounds  [2 * runs] column-major: the first vertex of each, ascending, and the one behind its last
+WEFT_INLINE integer run_of_vertex(WEFT_GLOBAL const int* bounds, int run_count, whole vertex) {
+    whole run = splat_whole(0);
+    for (int left = run_count; left > 1; left -= left / 2) {
+        const whole middle = run + splat_whole(left / 2);
+        run = vertex < gather_whole(bounds, address(middle)) ? run : middle;
+    }
+    const whole none = splat_whole(run_count);
+    const whole before_end =
+        vertex < gather_whole(bounds, address(run + splat_whole(run_count))) ? run : none;
+    return address(vertex < gather_whole(bounds, address(run)) ? none : before_end);
+}
+
 /// By how much E is higher at the start than in the moved shape, and than the margin, vertex by
 /// vertex.
 /// positions  [vertices] xyz: the start [m], w = 1/mass [1/kg]
 /// previous   [vertices] xyz: where bodies were [m]
 /// targets    [vertices] xyz: x~ [m]
-/// run_of     [vertices] the last one plus 1: of no such body
+/// bounds     as in run_of_vertex
 /// vertices   [items] the vertex of each
 /// sums       [9 * items] gradients; see descent/rows.h
 /// rises      [vertices] written [J]; 0 of what is held
 WEFT_KERNEL(weigh_starts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* previous,
             WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const float4* motions,
-            WEFT_GLOBAL const float4* carries, WEFT_GLOBAL const int* run_of,
+            WEFT_GLOBAL const float4* carries, WEFT_GLOBAL const int* bounds,
             WEFT_GLOBAL const int* vertices, WEFT_GLOBAL const float* sums,
             WEFT_GLOBAL float* rises, int item_count, float inverse_h2, int run_count) {
     const integer v = load_index(vertices, i);
     const real4 x = gather4(positions, v);
     const real3 target = xyz(gather4(targets, v));
-    const integer run = address(gather_whole(run_of, v));
+    const integer run = run_of_vertex(bounds, run_count, load_whole(vertices, i));
     const real3 before = xyz(gather4(previous, v));
     const real3 moved = moved_as_whole(before, motions, run, run_count);
     const real3 d = subtract(xyz(x), moved);
@@ -128,7 +142,7 @@ WEFT_KERNEL(add_rises, WEFT_GLOBAL const float* rises, WEFT_GLOBAL const int* me
 /// margins    as in solve_starts
 /// touched    [runs] above 0 of what was pushed or touched in the substep before; not read unless
 ///            may_be_touched
-/// chosen     [runs + 1] written: 1, or 0
+/// chosen     [runs] written: 1, or 0
 WEFT_KERNEL(choose_starts, WEFT_GLOBAL const float4* rises, WEFT_GLOBAL const int* first_run,
             WEFT_GLOBAL const float* counts, WEFT_GLOBAL const float* margins,
             WEFT_GLOBAL const float* touched, WEFT_GLOBAL float* chosen, int most_runs,
@@ -148,20 +162,23 @@ WEFT_KERNEL(choose_starts, WEFT_GLOBAL const float4* rises, WEFT_GLOBAL const in
     store(chosen, i, sum > zero ? free : zero);
 }
 
-/// Leads what has been chosen there.
+/// Leads what has been chosen there, as move_held does.
 /// positions  [vertices] xyz [m], w = 1/mass [1/kg]: to the start
+/// runs       [columns] the run of each; columns of one run lie side by side
 /// others     as in weigh_starts and choose_starts
 WEFT_KERNEL(start_moved, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* previous,
             WEFT_GLOBAL const float4* motions, WEFT_GLOBAL const float* chosen,
-            WEFT_GLOBAL const int* run_of, int run_count) {
-    const real zero = splat(0.0f);
-    const integer run = load_index(run_of, i);
-    const real4 x = load4(positions, i);
-    const real3 moved = moved_as_whole(xyz(load4(previous, i)), motions, run, run_count);
-    const mask is_led = both(x.w > zero, gather(chosen, run) > zero);
-    store4(
-        positions, i,
-        with_w(make3(is_led ? moved.x : x.x, is_led ? moved.y : x.y, is_led ? moved.z : x.z), x.w));
+            WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+            WEFT_GLOBAL const int* rows, WEFT_GLOBAL const int* runs, int run_count) {
+    const int length = chosen[runs[i.first]] > 0.0f ? rows[2 * i.first + 1] : 0;
+    const integer run = load_index(runs, i);
+    for (int k = 0; k < length; ++k) {
+        const item entry = {rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
+        const integer v = load_index(members, entry);
+        const real3 moved = moved_as_whole(xyz(gather4(previous, v)), motions, run, run_count);
+        scatter4_where(load(shares, entry) > splat(0.0f), positions, v,
+                       with_w(moved, gather4(positions, v).w));
+    }
 }
 
 /// Keeps which bodies are pushed or touched, for the next substep.

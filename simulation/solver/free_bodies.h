@@ -71,15 +71,14 @@ public:
     std::pair<int, int> runs_in(int first_strip, int end_strip) const;
     BodyColumns columns();
     BodyRuns runs() { return {first_run_, counts_, runs_by_strip_}; }
-    /// [vertices] the last one plus 1 for those of no such body. Behind number_vertices(), which
-    /// of() does.
+    /// [vertices] the last one plus 1 for those of no free body. Of of()'s alone.
     Buffer<int>& run_of_vertices() { return *run_of_; }
-    void number_vertices(const Model& model);
     /// Adds up columns for each run.
     Launch add_columns(Buffer<float4>& partials, Buffer<float4>& sums, const SumLayout& layout);
 
 private:
     void fill_strips(const Model& model);
+    void number_vertices(const Model& model);
     void fill_columns(const Counted& counted);
     void fill_bodies();
 
@@ -100,7 +99,7 @@ private:
     Buffer<int> rows_;           ///< [2 * columns] see the kernels for these and the following
     Buffer<int> first_run_;      ///< [runs]
     Buffer<float> counts_;       ///< [runs]
-    std::unique_ptr<Buffer<int>> run_of_;    ///< [vertices] null: nobody asked
+    std::unique_ptr<Buffer<int>> run_of_;    ///< [vertices] null: some are held
     std::unique_ptr<Buffer<int>> members_;   ///< [entries]
     std::unique_ptr<Buffer<float>> shares_;  ///< [entries]
     std::vector<std::unique_ptr<Sums>> sums_;

@@ -31,13 +31,7 @@ std::unique_ptr<HeldBodies> HeldBodies::of(Model& model, ContactResponse* contac
 
 HeldBodies::HeldBodies(Model& model, ContactResponse* contact, const std::vector<HeldBody>& bodies,
                        int kind)
-    : model_(model),
-      contact_(contact),
-      sums_(model, bodies),
-      runs_("held.runs", at(sums_.bodies().column_count())),
-      body_{"held", kind, {}} {
-    for (int r = 0; r < sums_.bodies().run_count(); ++r)
-        std::fill_n(runs_.data() + WEFT_RUN_COLUMNS * r, WEFT_RUN_COLUMNS, r);
+    : model_(model), contact_(contact), sums_(model, bodies), body_{"held", kind, {}} {
     if (!contact && !model.obstacles) return;
     number_bodies();
     touched_ = std::make_unique<Buffer<float>>("held.touched", at(sums_.bodies().run_count()));
@@ -99,7 +93,7 @@ std::vector<Launch> HeldBodies::move(Buffer<float4>& deviations) {
                bodies.most_runs(), bodies.run_count(), contact_ ? kFirmly : kHeld),
         launch(kernels::move_held, columns.by_strip, *model_.positions, deviations,
                *model_.velocities, sums_.motions(), columns.members, columns.shares, columns.rows,
-               runs_, static_cast<float>(1.0 / model_.h), bodies.run_count())};
+               sums_.runs(), static_cast<float>(1.0 / model_.h), bodies.run_count())};
     if (touched_)
         launches.push_back(launch(kernels::keep_touched, runs.by_strip, sums_.moments().sums(),
                                   runs.first, runs.counts, *touched_, bodies.most_runs()));

@@ -51,7 +51,6 @@ private:
     Buffer<float4>* positions_ = nullptr;  ///< behind look_at(), as are
     Buffer<float4>* targets_ = nullptr;
     Buffer<float4>* starts_ = nullptr;
-    Buffer<int> runs_;  ///< [columns] see the kernels
     std::unique_ptr<Buffer<float>> touched_;
     TaskBody body_;
 };

@@ -91,6 +91,7 @@ HeldSums::HeldSums(Model& model, const std::vector<HeldBody>& bodies)
       items_(model.strips, held_vertices(bodies)),
       derivatives_(model, items_),
       holds_(model, wholes_of(bodies), counted_holds(model, items_)),
+      runs_("held.runs", at(bodies_.column_count())),
       ends_("held.ends", 2 * at(bodies_.run_count())),
       numbers_("held.numbers", 3 * at(bodies_.run_count())),
       pulls_("held.pulls", at(kParts * (holds_.run_count() + holds_.most_runs()))),
@@ -134,6 +135,7 @@ void HeldSums::fill_runs(const std::vector<HeldBody>& bodies) {
         for (int v = body.whole.begin; v < body.whole.end; ++v) {
             if (!is_held(model_, v)) mass += model_.masses[at(v)];
         }
+        std::fill_n(runs_.data() + WEFT_RUN_COLUMNS * r, WEFT_RUN_COLUMNS, r);
         ends_[at(r)] = body.hinge.from;
         ends_[at(runs + r)] = body.hinge.to;
         numbers_[at(r)] = static_cast<float>(model_.h * model_.h / mass);

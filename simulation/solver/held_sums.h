@@ -36,6 +36,7 @@ public:
     FreeBodies& bodies() { return bodies_; }
     MomentSums& moments() { return moments_; }
     Buffer<float4>& pulls() { return pulls_; }
+    Buffer<int>& runs() { return runs_; }          ///< [columns] the run of each
     Buffer<int>& ends() { return ends_; }          ///< [2 * runs] see the kernels
     Buffer<float4>& hinges() { return hinges_; }   ///< [2 * runs]
     Buffer<float>& numbers() { return numbers_; }  ///< [3 * runs]
@@ -61,6 +62,7 @@ private:
     VertexDerivatives derivatives_;
     FreeBodies holds_;                  ///< the same runs, of these items
     std::vector<VertexRange> seen_by_;  ///< [strips] what elements of held vertices have there
+    Buffer<int> runs_;
     Buffer<int> ends_;
     Buffer<float> numbers_;
     Buffer<float4> pulls_;

@@ -90,7 +90,8 @@ float margin_of(const HeldBody& body, double firmness, const Stiff& stiff) {
 std::unique_ptr<StiffStarts> StiffStarts::of(Model& model, HeldBodies* held, const Setting& setting,
                                              int first_kind) {
     const bool may_be_touched = model.obstacles || setting.contact;
-    std::vector<HeldBody> bodies = may_be_touched ? held_bodies(model) : movable_bodies(model);
+    const std::vector<HeldBody> bodies =
+        may_be_touched ? held_bodies(model) : movable_bodies(model);
     const std::vector<double> firmness = firmness_of(model, bodies);
     const Stiff& stiff = setting.solves_all ? kStiffForAll : kStiff;
     std::vector<float> margins;
@@ -114,15 +115,19 @@ StiffStarts::StiffStarts(Model& model, HeldBodies* held, bool needs_others,
       setting_(setting),
       margins_("starts.margins", at(held_sums_.bodies().run_count())),
       touched_(held ? held->touched() : nullptr),
+      bounds_("starts.bounds", 2 * margins_.count()),
       carries_("starts.carries", margins_.count() + 1),
       rises_("starts.rises", model.positions->count()),
       totals_("starts.totals",
               at(held_sums_.bodies().run_count() + held_sums_.bodies().most_runs())),
-      chosen_("starts.chosen", carries_.count()) {
+      chosen_("starts.chosen", margins_.count()) {
     const std::vector<int> body_of = number_vertices(model, bodies);
-    for (int r = 0; r < held_sums_.bodies().run_count(); ++r)
-        margins_[at(r)] = margins[at(body_of[at(held_sums_.bodies().run(r).begin)])];
-    held_sums_.bodies().number_vertices(model);
+    for (int r = 0; r < held_sums_.bodies().run_count(); ++r) {
+        const FreeBodies::Run& run = held_sums_.bodies().run(r);
+        margins_[at(r)] = margins[at(body_of[at(run.begin)])];
+        bounds_[at(r)] = run.begin;
+        bounds_[margins_.count() + at(r)] = run.end;
+    }
     make_bodies(first_kind);
 }
 
@@ -158,8 +163,9 @@ void StiffStarts::make_bodies(int first_kind) {
         kStarts,
         {launch(kernels::choose_starts, runs.by_strip, totals_, runs.first, runs.counts, margins_,
                 touched_ ? *touched_ : margins_, chosen_, bodies.most_runs(), touched_ ? 1 : 0),
-         launch(kernels::start_moved, model_.vertices(), *model_.positions, *model_.previous,
-                held_sums_.motions(), chosen_, bodies.run_of_vertices(), bodies.run_count())});
+         launch(kernels::start_moved, columns.by_strip, *model_.positions, *model_.previous,
+                held_sums_.motions(), chosen_, columns.members, columns.shares, columns.rows,
+                held_sums_.runs(), bodies.run_count())});
     seam_rises_ = body(kRises, {});
     strip_rises_ = body(kRises, {});
     for (const Phase phase : setting_.phases)
@@ -170,8 +176,8 @@ std::vector<Launch> StiffStarts::weigh(Phase phase) {
     std::vector<Launch> launches = setting_.derivatives.gather_gradients(phase, *model_.positions);
     launches.push_back(launch(
         kernels::weigh_starts, setting_.items.segments(phase), *model_.positions, *model_.previous,
-        setting_.targets, held_sums_.motions(), carries_, held_sums_.bodies().run_of_vertices(),
-        setting_.items.vertices(), setting_.derivatives.sums(), rises_, setting_.items.count(),
+        setting_.targets, held_sums_.motions(), carries_, bounds_, setting_.items.vertices(),
+        setting_.derivatives.sums(), rises_, setting_.items.count(),
         static_cast<float>(1.0 / (model_.h * model_.h)), held_sums_.bodies().run_count()));
     return launches;
 }

@@ -63,10 +63,11 @@ private:
     Setting setting_;
     Buffer<float> margins_;  ///< [runs] see the kernels
     Buffer<float>* touched_;
+    Buffer<int> bounds_;      ///< [2 * runs]
     Buffer<float4> carries_;  ///< [runs + 1] see the kernels for these and the following
     Buffer<float> rises_;     ///< [vertices]
     Buffer<float4> totals_;   ///< [runs + most_runs]
-    Buffer<float> chosen_;    ///< [runs + 1] scratch of its task, region by region
+    Buffer<float> chosen_;    ///< [runs] scratch of its task, region by region
     TaskBody sums_, motions_, totals_body_, starts_;
     TaskBody seam_rises_, strip_rises_;  ///< without launches: no items there
 };

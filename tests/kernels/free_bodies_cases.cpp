@@ -281,6 +281,17 @@ void solve_starts_case(KernelCase& c) {
 
 constexpr int kStartRuns = 3;
 
+/// Of three runs, with vertices before and behind them and between two.
+Buffer<int>& add_bounds(KernelCase& c) {
+    auto& bounds = c.add<int>("bounds", 2 * kStartRuns);
+    const int part = c.items / 5;
+    for (int r = 0; r < kStartRuns; ++r) {
+        bounds[at(r)] = 1 + part * r;
+        bounds[at(kStartRuns + r)] = 1 + part * (r + 1) - (r == 1 && part > 1 ? 1 : 0);
+    }
+    return bounds;
+}
+
 void weigh_starts_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     for (int v = 0; v < c.items; v += 4) positions[at(v)].w = 0.0f;
@@ -288,14 +299,14 @@ void weigh_starts_case(KernelCase& c) {
     auto& targets = add_points(c, "targets", c.items);
     auto& motions = add_points(c, "motions", 3 * (kStartRuns + 1));
     auto& carries = add_points(c, "carries", kStartRuns + 1);
-    auto& run_of = add_indices(c, "run_of", c.items, kStartRuns + 1);
+    auto& bounds = add_bounds(c);
     auto& vertices = c.add<int>("vertices", c.items);
     for (int i = 0; i < c.items; ++i) vertices[at(i)] = c.items - 1 - i;
     auto& sums = c.add<float>("sums", 9 * c.items);
     for (float& value : sums.span()) value = c.random.real(-1.0f, 1.0f);
     auto& rises = c.add<float>("rises", c.items);
     c.launch = launch(kernels::weigh_starts, c.segments, positions, previous, targets, motions,
-                      carries, run_of, vertices, sums, rises, c.items, 1e3f, kStartRuns);
+                      carries, bounds, vertices, sums, rises, c.items, 1e3f, kStartRuns);
 }
 
 /// A column for each item, of two rows.
@@ -329,16 +340,27 @@ void choose_starts_case(KernelCase& c) {
                       chosen, kRows, c.random.integer(0, 1));
 }
 
+/// The same, of runs of which all are led: a pack has columns of one run alone.
 void start_moved_case(KernelCase& c) {
-    auto& positions = add_points(c, "positions", c.items);
-    for (int v = 0; v < c.items; v += 4) positions[at(v)].w = 0.0f;
-    auto& previous = add_points(c, "previous", c.items);
+    const int vertices = c.items + WEFT_RUN_COLUMNS;
+    auto& positions = add_points(c, "positions", vertices);
+    auto& previous = add_points(c, "previous", vertices);
     auto& motions = add_points(c, "motions", 3 * (kStartRuns + 1));
-    auto& chosen = c.add<float>("chosen", kStartRuns + 1);
-    for (int r = 0; r < kStartRuns; r += 2) chosen[at(r)] = 1.0f;
-    auto& run_of = add_indices(c, "run_of", c.items, kStartRuns + 1);
+    auto& chosen = c.add<float>("chosen", kStartRuns);
+    for (float& start : chosen.span()) start = 1.0f;
+    auto& members = c.add<int>("members", vertices);
+    for (int e = 0; e < vertices; ++e) members[at(e)] = vertices - 1 - e;
+    auto& shares = c.add<float>("shares", vertices);
+    for (float& share : shares.span()) share = static_cast<float>(c.random.integer(0, 1));
+    auto& rows = c.add<int>("rows", 2 * c.items);
+    auto& runs = c.add<int>("runs", c.items);
+    for (int i = 0; i < c.items; ++i) {
+        rows[at(2 * i)] = i;
+        rows[at(2 * i + 1)] = c.items <= WEFT_RUN_COLUMNS ? 2 : 1;
+        runs[at(i)] = i / WEFT_RUN_COLUMNS % kStartRuns;
+    }
     c.launch = launch(kernels::start_moved, c.segments, positions, previous, motions, chosen,
-                      run_of, kStartRuns);
+                      members, shares, rows, runs, kStartRuns);
 }
 
 void touched_case(KernelCase& c) {

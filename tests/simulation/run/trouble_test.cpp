@@ -231,9 +231,13 @@ faces = ["x+"]
 motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
 )");
     const bool gives_way = GetParam() != Method::kXpbd && GetParam() != Method::kNewton;
-    if (gives_way) scene.substeps = 1;
+    if (gives_way) {
+        scene.substeps = 1;
+        scene.dt = 1.0 / 30;
+    }
     const Strained run = strained_by(scene);
-    EXPECT_EQ(run.most > 0.15, gives_way) << run.most;
+    EXPECT_EQ(run.most > 0.3, gives_way) << run.most;
+    EXPECT_EQ(run.most > 0.2, gives_way) << run.most;
     // xpbd keeps its edges, but changes volumes: twenty times the energy that there should be.
     EXPECT_EQ(run.is_told, GetParam() != Method::kNewton) << run.most;
 }
@@ -242,7 +246,7 @@ motion = { angular_velocity = 360.0, axis = [1.0, 0.0, 0.0] }
 TEST_P(EveryWrong, StretchIsDoubtedThatASolvedStepWouldNotLeave) {
     const Scene scene = scene_of(R"(
 [scene]
-frames = 30
+frames = 15
 dt = 0.016666667
 substeps = 10
 [[cloth]]
@@ -256,7 +260,7 @@ motion = { angular_velocity = 20000.0, center = [-0.5, 0.0, 0.0] }
     const bool gives_way = GetParam() != Method::kNewton;
     const Strained run = strained_by(scene);
     EXPECT_EQ(run.most > 0.1, gives_way) << run.most;
-    EXPECT_LT(run.most, 0.4);
+    EXPECT_LT(run.most, 0.3);
     EXPECT_EQ(run.is_told, gives_way) << run.most;
 }
 
