@@ -179,7 +179,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
         const integer entry = address(on ? start + splat_whole(WEFT_ROW_STRIDE * k) : start);
         contact_entry c = load_push(sides, slips, forces, entry);
         const whole code = gather_whole(codes, entry);
-        const whole opposite = code >> splat_whole(2);
+        const whole opposite = body_of_code(code);
         const real4 point = gather4(points, entry);
         const real4 other_point = gather4(other_points, entry);
         const mask rests = both(on, point.w >= zero);
@@ -227,7 +227,7 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                 sum.borne = add_scaled_bearing(sum.borne, said, on ? one : zero);
             }
         }
-        const whole inside = code - (opposite << splat_whole(2));
+        const whole inside = code - code_of_body(opposite);
         const real outside = inside > splat_whole(level) ? zero : one;
         if (is_strain)
             sum = add_strain_at(sum, push, lever, yielding);

@@ -5,9 +5,11 @@
 // them: see bodies.h. It takes what they lack in common of linear and angular momentum, against
 // what pushes them from outside.
 //
-// In every other round the halves of groups take such steps instead, on both sides of their middle:
-// how a tower bends is neither a matter of single bodies, whose steps are about the square of its
-// height too short for that, nor of the whole (docs/measurements.md, "Towers").
+// In other rounds their halves take such steps instead, on both sides of their middle, or the
+// halves of these, in scenes of many bodies down to parts of a few: how a tower bends is neither a
+// matter of single bodies, whose steps are about the square of its height too short for that, nor
+// of the whole (docs/measurements.md, "Towers"). Nor is how a pile is stopped that falls
+// (docs/measurements.md, "Stacks that land").
 
 #include "kernels/contact/bodies.h"
 
@@ -28,20 +30,19 @@ WEFT_INLINE integer body_in_group(WEFT_GLOBAL const int* members, whole first, m
 /// rests         [7 * bodies] as solve_bodies leaves them
 /// moments_of    [9 * (bodies + 1)] as weigh_bodies leaves them
 /// motions       [2 * (bodies + 1)] with solve_bodies' step
-/// firsts        [substeps * levels * bodies] where a group's bodies begin in `members`; levels are
-///               WEFT_GROUP_LEVELS
-/// counts        [substeps * levels * bodies] how many there are; 0 for all but the first one of a
-///               group
-/// members       [substeps * levels * bodies] groups side by side
+/// firsts        [substeps * level_count * bodies] where a group's bodies begin in `members`
+/// counts        [substeps * level_count * bodies] how many there are; 0 for all but the first one
+///               of a group
+/// members       [substeps * level_count * bodies] groups side by side
 /// group_motions [3 * bodies] written, column-major: of the groups that begin there; about xyz [m]
 /// level         of groups
 WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
                    WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
                    WEFT_GLOBAL const int* firsts, WEFT_GLOBAL const int* counts,
                    WEFT_GLOBAL const int* members, WEFT_GLOBAL float4* group_motions, int level,
-                   int body_count, int substep) {
+                   int level_count, int body_count, int substep) {
     const real zero = splat(0.0f);
-    const int table = WEFT_GROUP_LEVELS * substep + level;
+    const int table = level_count * substep + level;
     const item now = column(i, body_count, table);
     const whole first = load_whole(firsts, now);
     const whole count = load_whole(counts, now);
@@ -82,14 +83,15 @@ WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
 /// motions  [2 * (bodies + 1)]
 /// bearings [4 * (bodies + 1)] from solve_bodies, to those with how far bodies have gone
 /// masses   [bodies] [kg]
-/// leaders  [substeps * levels * bodies] the first one of each body's group
+/// leaders  [substeps * level_count * bodies] the first one of each body's group
 /// others as in solve_groups
 WEFT_KERNEL(add_groups, WEFT_GLOBAL float4* motions, WEFT_GLOBAL float4* bearings,
             WEFT_GLOBAL const float* masses, WEFT_GLOBAL const float4* rests,
             WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* group_motions,
-            WEFT_GLOBAL const int* leaders, int is_rubbed, int level, int body_count, int substep) {
+            WEFT_GLOBAL const int* leaders, int is_rubbed, int level, int level_count,
+            int body_count, int substep) {
     const real zero = splat(0.0f);
-    const int table = WEFT_GROUP_LEVELS * substep + level;
+    const int table = level_count * substep + level;
     const integer leader = load_index(leaders, column(i, body_count, table));
     const integer own_number = address(item_numbers(i));
     const real touches = load4(rests, column(i, body_count, 6)).w > zero ? splat(1.0f) : zero;

@@ -9,11 +9,9 @@
 // round has to know besides.
 
 #include "kernels/bodies/runs.h"
+#include "kernels/contact/codes.h"
 #include "kernels/contact/resting.h"
 #include "kernels/contact/rows.h"
-
-/// Bodies that touch are in groups, and these in parts (groups.h).
-#define WEFT_GROUP_LEVELS 2
 
 WEFT_KERNELS_BEGIN
 
@@ -54,12 +52,12 @@ WEFT_INLINE real3 lag_of_vertex(WEFT_GLOBAL const float4* positions,
 /// targets      [vertices] xyz: x~ [m]
 /// members, shares, column_rows  of the columns: see bodies/runs.h
 /// bodies       [vertices] which of the free bodies each belongs to; `body_count`: to none
-/// leaders      [substeps * WEFT_GROUP_LEVELS * bodies] the first one of each body's group, level by
-///              level (groups.h)
+/// leaders      [substeps * level_count * bodies] the first one of each body's group, level by level
+///              (groups.h)
 /// rows, counts, corner0 to corner3, normals, weights, measures  as in gather_contacts
 /// push_rows, push_counts, push_needs   of the columns, written; see runtime/row_table.h
-/// codes        [entries] written: 4 * the body on the other side, and the number of levels on
-///              which that is of this body's group
+/// codes        [entries] written: of the body on the other side, and of the number of levels on
+///              which that is of this body's group (codes.h)
 /// sides        [entries] written: n; the gap [m]
 /// slips        [entries] written: of this side along the other one [m]; the gap where inertia
 ///              leads [m]
@@ -67,8 +65,9 @@ WEFT_INLINE real3 lag_of_vertex(WEFT_GLOBAL const float4* positions,
 /// multipliers  [entries] of xpbd, see project_contacts [N s^2]; not read where has_multipliers is 0
 /// inverse_h2   1 / h^2 [1/s^2], h the substep
 /// forces       [entries] written: |w| and W |w| of the whole side; stiffness [N/m]; range [m]
-/// points, other_points  [entries] written: where this side is touched, and the other one [m]; w of
-///              the first: WEFT_RESTS_NOT
+/// points, other_points  [entries] written: where this side is touched, and the other one [m]; of
+///              two free bodies the middle between, so that forces on both, also those along
+///              surfaces, turn nothing that they have in common; w of the first: WEFT_RESTS_NOT
 /// presses      [entries] written with friction: how hard they press each other, as multipliers or
 ///              gaps say [N]
 /// standing     [columns] written: the sum of shares times x~ - x [m]; of shares
@@ -86,12 +85,12 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
                    WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
                    WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float* presses,
-                   WEFT_GLOBAL float4* standing, int column_count, int body_count, float friction,
-                   int has_multipliers, float inverse_h2, int instance) {
+                   WEFT_GLOBAL float4* standing, int column_count, int body_count, int level_count,
+                   float friction, int has_multipliers, float inverse_h2, int instance) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
     const whole last_body = splat_whole(body_count - 1);
-    WEFT_GLOBAL const int* group_leaders = leaders + instance * WEFT_GROUP_LEVELS * body_count;
+    WEFT_GLOBAL const int* group_leaders = leaders + instance * level_count * body_count;
     const whole push_start = load_whole(push_rows, i);
     const whole room = load_whole(push_rows, column(i, column_count, 1));
     whole found = none;
@@ -129,8 +128,8 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                 if (friction > 0.0f) c = with_earlier_slip(c, earlier_slips, entry);
                 const whole opposite = one_side == own_body ? other_side : one_side;
                 const mask is_free = opposite < splat_whole(body_count);
-                whole code = opposite << splat_whole(2);
-                for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+                whole code = code_of_body(opposite);
+                for (int level = 0; level < level_count; ++level) {
                     WEFT_GLOBAL const int* first_of = group_leaders + level * body_count;
                     const whole own_leader =
                         gather_whole(first_of, address(smaller_whole(own_body, last_body)));
@@ -141,8 +140,12 @@ WEFT_NARROW_KERNEL(collect_pushes, WEFT_GLOBAL const float4* positions,
                 }
                 const real own = weight_of_side(w);
                 // The weights of both sides are the same.
-                const real3 point = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
-                const real3 other_point = point_of_side(positions, w, own, -1.0f, c0, c1, c2, c3);
+                const real3 here = point_of_side(positions, w, own, 1.0f, c0, c1, c2, c3);
+                const real3 there = point_of_side(positions, w, own, -1.0f, c0, c1, c2, c3);
+                const real inward = is_free ? splat(0.5f) : zero;
+                const real3 between = scale(subtract(there, here), inward);
+                const real3 point = add(here, between);
+                const real3 other_point = subtract(there, between);
                 const real4 force = {own, c.spread * (own / c.own), c.stiffness, c.range};
                 const mask fits = both(counts_here, found < room);
                 const integer place = address(push_start + found * WEFT_ROW_STRIDE);

@@ -23,6 +23,7 @@
 // obstacles rub single vertices of cloth is known from iterations, and nothing is added to that.
 
 #include "kernels/bodies/runs.h"
+#include "kernels/contact/codes.h"
 #include "kernels/contact/rows.h"
 #include "kernels/obstacles/seen.h"
 
@@ -128,7 +129,7 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             const integer place = address(push_start + found * WEFT_ROW_STRIDE);
             const real4 force = {one, one, gather(hardness, vertex), one};
             const real friction = splat(o[7].y) * gather(solid, vertex);
-            scatter_whole_where(fits, codes, place, splat_whole(4 * body_count));
+            scatter_whole_where(fits, codes, place, code_of_body(splat_whole(body_count)));
             scatter4_where(fits, sides, place, with_w(normal, gap));
             scatter4_where(fits, slips, place, with_w(slip, one));
             scatter4_where(fits, forces, place, force);

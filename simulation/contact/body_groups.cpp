@@ -1,8 +1,9 @@
 #include "simulation/contact/body_groups.h"
 
 #include <algorithm>
+#include <bit>
 
-#include "kernels/contact/pushes.h"
+#include "kernels/contact/codes.h"
 #include "simulation/contact/interval_box.h"
 
 namespace weft {
@@ -18,20 +19,25 @@ double Vec3::*longest_side(const IntervalBox& box) {
     return size.y >= size.z ? &Vec3::y : &Vec3::z;
 }
 
+int levels_of(std::size_t bodies) {
+    return std::clamp(static_cast<int>(std::bit_width(bodies)) - 2, 2, WEFT_MOST_GROUP_LEVELS);
+}
+
 }  // namespace
 
 BodyGroups::BodyGroups(int substeps, std::vector<std::vector<int>> parts)
     : parts_(std::move(parts)),
-      firsts("groups.firsts", at(substeps) * WEFT_GROUP_LEVELS * parts_.size()),
+      level_count_(levels_of(parts_.size())),
+      firsts("groups.firsts", at(substeps) * at(level_count_) * parts_.size()),
       counts("groups.counts", firsts.count()),
       members("groups.members", firsts.count()),
       leaders("groups.leaders", firsts.count()) {}
 
 void BodyGroups::place(int substep, std::vector<int> groups, const std::vector<Vec3>& centres) {
     Lists lists = listed(std::move(groups));
-    for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+    for (int level = 0; level < level_count_; ++level) {
         if (level > 0) lists = halved(lists, centres);
-        write(WEFT_GROUP_LEVELS * substep + level, lists);
+        write(level_count_ * substep + level, lists);
     }
 }
 

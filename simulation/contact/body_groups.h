@@ -8,8 +8,9 @@
 namespace weft {
 
 /// Which bodies belong together in each substep of a frame, for kernels/contact/bodies.h: a guess
-/// at what will touch, that costs nothing but speed of convergence where it is wrong. A group's
-/// halves are what is on both sides of the middle of its longest side.
+/// at what will touch, that costs nothing but speed of convergence where it is wrong. There are
+/// groups, their halves, the halves of these, ... (kernels/contact/groups.h); halves are what is on
+/// both sides of the middle of a longest side.
 class BodyGroups {
 public:
     /// parts: of each body those of the scene's bodies that it has vertices of
@@ -19,6 +20,8 @@ public:
     /// [m]
     void place(int substep, std::vector<int> groups, const std::vector<Vec3>& centres);
     int body_count() const { return static_cast<int>(parts_.size()); }
+    /// At least two; of all bodies, the parts on the last level have four to seven, or less.
+    int level_count() const { return level_count_; }
     std::vector<BufferStorage*> buffers() { return {&firsts, &counts, &members, &leaders}; }
 
 private:
@@ -29,9 +32,10 @@ private:
     void write(int table, const Lists& groups);
 
     std::vector<std::vector<int>> parts_;
+    int level_count_;
 
 public:
-    /// [substeps * levels * bodies] see the kernels
+    /// [substeps * level_count * bodies] see the kernels
     Buffer<int> firsts, counts, members, leaders;
 };
 

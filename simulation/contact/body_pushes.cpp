@@ -42,7 +42,7 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
                   contacts_->measures, contacts_->slips, multipliers_ ? *multipliers_ : none_,
                   table_.rows(), table_.counts(), table_.needs(), codes_, sides_, slips_, forces_,
                   points_, other_points_, presses_, standing_, columns_.count, groups->body_count(),
-                  friction_, multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
+                  groups->level_count(), friction_, multipliers_ ? 1 : 0, 1.0f / h2_, kInstance);
 }
 
 Launch BodyPushes::collect_resting(const Resting& r) {

@@ -13,6 +13,10 @@ namespace weft {
 namespace {
 
 constexpr int kRounds = 12;
+/// More for each level of groups beyond the usual two; for sheets alone, as what is led before the
+/// first iteration, too, has twice as many anyway.
+constexpr int kLevels = 2;
+constexpr int kRoundsPerLevel = 8;
 /// Before the first iteration, where bodies touch obstacles alone: 12 do no better, and 3 worse.
 constexpr int kFirstRoundsAlone = 6;
 constexpr int kStrainEvery = 3;  ///< rounds, from the first one on
@@ -90,8 +94,8 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
     first_collect_ = collect_ = {"pushes", first_kind, {}};
     weigh_ = {"bodies", first_kind + 1, {moments_.weigh(all())}};
     steps_ = {"bodies", first_kind + 1, solve(0, 0)};
-    for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
-        steps_again_[at(level)] = {"bodies", first_kind + 1, solve(1, level)};
+    for (int level = 0; level < level_count(); ++level) {
+        steps_again_.push_back({"bodies", first_kind + 1, solve(1, level)});
     }
     solids_ = BodyStrains::of(model, bodies, body_of_);
     if (solids_) strain_steps_ = {"bodies", first_kind + 1, {solve_strains()}};
@@ -122,10 +126,10 @@ std::vector<Launch> TouchingBodies::solve(int has_moved, int level) {
     if (!groups_) return launches;
     launches.push_back(launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_,
                               groups_->firsts, groups_->counts, groups_->members, group_motions_,
-                              level, body_count(), kInstance));
+                              level, level_count(), body_count(), kInstance));
     launches.push_back(launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_,
                               moments_.moments(), group_motions_, groups_->leaders, is_rubbed_,
-                              level, body_count(), kInstance));
+                              level, level_count(), body_count(), kInstance));
     return launches;
 }
 
@@ -151,11 +155,11 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
     targets_ = &targets;
     obstacles_ = obstacles;
     collect_.launches = collect(positions);
-    for (int level = 0; level < WEFT_GROUP_LEVELS; ++level) {
+    for (int level = 0; level < level_count(); ++level) {
         BodyPushes::Round round{.is_rubbed = is_rubbed_, .has_moved = 1, .level = level};
-        sums_again_[at(level)] = {"momentum", kind, sum_round(round)};
+        sums_again_.push_back({"momentum", kind, sum_round(round)});
         round.is_strained = 1;
-        strained_sums_[at(level)] = {"momentum", kind, sum_round(round)};
+        strained_sums_.push_back({"momentum", kind, sum_round(round)});
     }
     strain_sums_ = {"momentum", kind,
                     sum_round({.is_rubbed = is_rubbed_, .has_moved = 1, .is_strain = 1})};
@@ -198,7 +202,12 @@ void TouchingBodies::add_first_rounds(Step& step, const TaskBody& body,
 void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
                                 const std::vector<Region>& regions, Buffer<float4>& positions,
                                 int iteration) {
-    add_all(step, collect_, body, regions, positions, {kRounds, iteration});
+    add_all(step, collect_, body, regions, positions, {round_count(), iteration});
+}
+
+int TouchingBodies::round_count() const {
+    const int more = may_be_led() ? 0 : std::max(level_count() - kLevels, 0);
+    return kRounds + kRoundsPerLevel * more;
 }
 
 void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskBody& body,
@@ -217,7 +226,7 @@ void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskB
     moments_.add_weigh_accesses(weighing);
     for (int round = 0; round < count; ++round) {
         // The last round is of whole groups, as only these leave what they have in common exact.
-        const std::size_t level = at((count - 1 - round) % WEFT_GROUP_LEVELS);
+        const std::size_t level = at((count - 1 - round) % level_count());
         const bool is_strained = solids_ && round % kStrainEvery == 1;
         const TaskBody& again = is_strained ? strained_sums_[level] : sums_again_[level];
         const TaskBody& sums = round == 0 ? body : again;

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
-#include "kernels/contact/pushes.h"
 #include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/solver/body_moments.h"
@@ -75,6 +73,9 @@ private:
     Segments all() const { return {&begin_, 0, 1, model_.strips.count()}; }
     std::vector<Launch> solve(int has_moved, int level);
     int body_count() const { return bodies_.body_count(); }
+    int level_count() const { return groups_ ? groups_->level_count() : 1; }
+    /// Behind the last iteration.
+    int round_count() const;
 
     Model& model_;
     FreeBodies& bodies_;
@@ -107,7 +108,7 @@ private:
     TaskBody first_collect_, collect_, weigh_, steps_;
     TaskBody strain_sums_, strain_steps_;
     /// Of the rounds behind the first one, by levels of groups; sums behind strains are others.
-    std::array<TaskBody, WEFT_GROUP_LEVELS> sums_again_, strained_sums_, steps_again_;
+    std::vector<TaskBody> sums_again_, strained_sums_, steps_again_;
 };
 
 }  // namespace weft

@@ -27,9 +27,10 @@ struct Columns {
     static int entries(KernelCase& c) { return c.items + (kRows - 1) * WEFT_RUN_COLUMNS; }
 };
 
-constexpr int kTables = kSubsteps * WEFT_GROUP_LEVELS;  ///< of groups
+constexpr int kLevels = 3;  ///< of groups
+constexpr int kTables = kSubsteps * kLevels;
 
-int random_level(KernelCase& c) { return c.random.integer(0, WEFT_GROUP_LEVELS - 1); }
+int random_level(KernelCase& c) { return c.random.integer(0, kLevels - 1); }
 
 /// What a body has of contacts, as collect_pushes leaves it.
 struct Pushes {
@@ -41,7 +42,7 @@ struct Pushes {
 
     explicit Pushes(KernelCase& c)
         : rows(c, "pushes", c.items, kRoom),
-          codes(add_indices(c, "codes", rows.entries, 4 * (kBodies + 1))),
+          codes(add_indices(c, "codes", rows.entries, (kBodies + 1) << WEFT_LEVEL_BITS)),
           sides(add_normals(c, "sides", rows.entries, -kRange, 2.0f * kRange)),
           slips(add_points(c, "slips", rows.entries)),
           forces(c.add<float4>("forces", rows.entries)),
@@ -73,7 +74,8 @@ void collect_case(KernelCase& c) {
         contacts.weights, contacts.measures, contacts.slips, multipliers, pushes.rows.rows,
         pushes.rows.counts, needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces,
         pushes.points, pushes.other_points, pushes.presses, pushes.standing, c.items, kBodies,
-        c.flavour == Flavour::kRandom ? 0.3f : 0.0f, c.random.integer(0, 1), 1e4f, kInstance);
+        kLevels, c.flavour == Flavour::kRandom ? 0.3f : 0.0f, c.random.integer(0, 1), 1e4f,
+        kInstance);
 }
 
 void collect_none_case(KernelCase& c) {
@@ -255,7 +257,7 @@ void groups_case(KernelCase& c) {
     auto& members = add_indices(c, "members", kTables * c.items, c.items);
     auto& group_motions = c.add<float4>("group_motions", 3 * c.items);
     c.launch = launch(kernels::solve_groups, c.segments, rests, moments, motions, firsts, counts,
-                      members, group_motions, random_level(c), c.items, kInstance);
+                      members, group_motions, random_level(c), kLevels, c.items, kInstance);
 }
 
 void add_groups_case(KernelCase& c) {
@@ -267,9 +269,9 @@ void add_groups_case(KernelCase& c) {
     auto& moments = add_moments(c, c.items);
     auto& group_motions = add_points(c, "group_motions", 3 * c.items);
     auto& leaders = add_indices(c, "leaders", kTables * c.items, c.items);
-    c.launch =
-        launch(kernels::add_groups, c.segments, motions, bearings, masses, rests, moments,
-               group_motions, leaders, c.random.integer(0, 1), random_level(c), c.items, kInstance);
+    c.launch = launch(kernels::add_groups, c.segments, motions, bearings, masses, rests, moments,
+                      group_motions, leaders, c.random.integer(0, 1), random_level(c), kLevels,
+                      c.items, kInstance);
 }
 
 void move_case(KernelCase& c) {

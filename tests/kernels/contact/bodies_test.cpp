@@ -191,12 +191,15 @@ TEST(BodiesAsWholes, WhatObstaclesHoldIsShiftedTheLess) {
     EXPECT_NEAR(body.motions[0].x, shift, 1e-7f);
 }
 
+/// A code of body 1, on no level of this one's group.
+constexpr int kOfFirst = 1 << WEFT_LEVEL_BITS;
+
 /// Two edges that cross, of a body each.
 struct CrossedEdges {
-    static constexpr int kVertices = 4, kRoom = 4;
+    static constexpr int kVertices = 4, kRoom = 4, kLevels = 2;
     Buffer<float4> positions{"positions", kVertices}, targets{"targets", kVertices};
     Buffer<int> members{"members", 2 * WEFT_RUN_COLUMNS}, columns{"column_rows", 4},
-        bodies{"bodies", kVertices}, leaders{"leaders", 2 * WEFT_GROUP_LEVELS};
+        bodies{"bodies", kVertices}, leaders{"leaders", 2 * kLevels};
     Buffer<float> shares{"shares", 2 * WEFT_RUN_COLUMNS};
     Buffer<int> rows{"rows", 2 * kVertices}, counts{"counts", kVertices};
     Buffer<int> corner0{"corner0", kVertices}, corner1{"corner1", kVertices},
@@ -235,7 +238,7 @@ struct CrossedEdges {
                           side * quarters[3]};
             measures[e] = {own, 2.0f * own, 100.0f, 0.02f};
         }
-        for (std::size_t level = 0; level < WEFT_GROUP_LEVELS; ++level) leaders[2 * level + 1] = 1;
+        for (std::size_t level = 0; level < kLevels; ++level) leaders[2 * level + 1] = 1;
         for (std::size_t body = 0; body < 2; ++body) {
             columns[2 * body] = static_cast<int>(body);
             columns[2 * body + 1] = 2;
@@ -248,12 +251,13 @@ struct CrossedEdges {
         }
     }
 
-    void collect() {
-        const Launch launched = launch(
-            kernels::collect_pushes, Segments{}, positions, targets, members, shares, columns,
-            bodies, leaders, rows, counts, corner0, corner1, corner2, corner3, normals, weights,
-            measures, normals, multipliers, push_rows, push_counts, push_needs, codes, sides, slips,
-            forces, points, other_points, presses, standing, 2, 2, 0.5f, 1, 100.0f, 0);
+    void collect(int free_bodies = 2) {
+        const Launch launched =
+            launch(kernels::collect_pushes, Segments{}, positions, targets, members, shares,
+                   columns, bodies, leaders, rows, counts, corner0, corner1, corner2, corner3,
+                   normals, weights, measures, normals, multipliers, push_rows, push_counts,
+                   push_needs, codes, sides, slips, forces, points, other_points, presses, standing,
+                   2, free_bodies, kLevels, 0.5f, 1, 100.0f, 0);
         run_on_host(launched, launched.kernel->scalar, 0, 2);
     }
 };
@@ -264,27 +268,36 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
     for (std::size_t body = 0; body < 2; ++body) {
         ASSERT_EQ(edges.push_counts[body], 1);
         EXPECT_EQ(edges.push_needs[body], 1);
-        EXPECT_EQ(edges.codes[body], 4 * (1 - static_cast<int>(body)));
+        EXPECT_EQ(edges.codes[body], kOfFirst * (1 - static_cast<int>(body)));
         EXPECT_NEAR(edges.sides[body].w, 0.01f, 1e-7f);
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
         EXPECT_EQ(edges.standing[body].w, 1.0f);
         EXPECT_EQ(edges.presses[body], 50.0f);
         EXPECT_NEAR(edges.points[body].x, 0.0f, 1e-7f);
-        EXPECT_NEAR(edges.points[body].y, body == 0 ? 0.01f : 0.0f, 1e-7f);
-        EXPECT_EQ(edges.points[body].y, edges.other_points[1 - body].y);
+        EXPECT_NEAR(edges.points[body].y, 0.005f, 1e-7f);
+        EXPECT_EQ(edges.points[body].y, edges.other_points[body].y);
+        EXPECT_EQ(edges.points[body].y, edges.points[1 - body].y)
+            << "else what rubs both would turn them in common";
     }
+}
+
+TEST(BodiesAsWholes, WhatIsHeldIsTouchedWhereTheSurfaceIs) {
+    CrossedEdges edges;
+    edges.collect(1);
+    EXPECT_NEAR(edges.points[0].y, 0.01f, 1e-7f);
+    EXPECT_NEAR(edges.other_points[0].y, 0.0f, 1e-7f);
 }
 
 TEST(BodiesAsWholes, ContactsKnowOnHowManyLevelsBothSidesAreOfOneGroup) {
     CrossedEdges edges;
     edges.leaders[1] = 0;
     edges.collect();
-    EXPECT_EQ(edges.codes[0], 4 + 1);
+    EXPECT_EQ(edges.codes[0], kOfFirst + 1);
     EXPECT_EQ(edges.codes[1], 1);
     edges.leaders[3] = 0;
     edges.collect();
-    EXPECT_EQ(edges.codes[0], 4 + 2);
+    EXPECT_EQ(edges.codes[0], kOfFirst + 2);
 }
 
 TEST(BodiesAsWholes, ContactsOfABodyWithItselfDoNotPushIt) {

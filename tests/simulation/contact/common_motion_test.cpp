@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "kernels/contact/pushes.h"
+#include "kernels/contact/codes.h"
 #include "simulation/contact/response.h"
 #include "simulation/scene/read_scene.h"
 #include "tests/simulation/run/physics.h"
@@ -156,8 +156,8 @@ TEST(BodyGroups, AreListedFromTheirFirstBodyOn) {
     const std::vector<Vec3> centres(5);
     groups.place(0, {0, 1, 2, 2, 4}, centres);
     groups.place(1, {0, 1, 0, 3, 4}, centres);
-    const auto list = [](const Buffer<int>& b, int substep) {
-        const auto first = b.span().begin() + 4 * WEFT_GROUP_LEVELS * substep;
+    const auto list = [&](const Buffer<int>& b, int substep) {
+        const auto first = b.span().begin() + 4 * groups.level_count() * substep;
         return std::vector<int>(first, first + 4);
     };
     EXPECT_EQ(list(groups.leaders, 0), (std::vector{0, 1, 1, 3})) << "3 and 1 are one";
@@ -181,6 +181,32 @@ TEST(BodyGroups, HaveHalvesOnBothSidesOfTheMiddleOfTheirLongestSide) {
     const auto leaders = groups.leaders.span();
     EXPECT_EQ(std::vector<int>(leaders.begin(), leaders.begin() + 5), (std::vector{0, 1, 0, 0, 0}));
     EXPECT_EQ(std::vector<int>(leaders.begin() + 5, leaders.end()), (std::vector{0, 1, 2, 2, 0}));
+}
+
+TEST(BodyGroups, OfManyBodiesHavePartsOfAFew) {
+    const auto levels_of = [](std::size_t bodies) {
+        return BodyGroups(1, std::vector<std::vector<int>>(bodies)).level_count();
+    };
+    EXPECT_EQ(levels_of(1), 2);
+    EXPECT_EQ(levels_of(15), 2);
+    EXPECT_EQ(levels_of(16), 3);
+    EXPECT_EQ(levels_of(50), 4);
+    EXPECT_EQ(levels_of(100'000), WEFT_MOST_GROUP_LEVELS);
+
+    constexpr int kBodies = 16;
+    std::vector<std::vector<int>> parts;
+    std::vector<Vec3> stack;
+    for (int b = 0; b < kBodies; ++b) {
+        parts.push_back({b});
+        stack.push_back({0.0, 0.1 * b, 0.0});
+    }
+    BodyGroups groups(1, parts);
+    groups.place(0, std::vector<int>(kBodies), stack);
+    for (std::size_t b = 0; b < kBodies; ++b) {
+        EXPECT_EQ(groups.leaders[b], 0);
+        EXPECT_EQ(groups.leaders[kBodies + b], static_cast<int>(b) / 8 * 8);
+        EXPECT_EQ(groups.leaders[2 * kBodies + b], static_cast<int>(b) / 4 * 4);
+    }
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ protected:
 };
 
 class LandingSheets : public Landing {};
+class LandingPile : public Landing {};
 
 /// Rounds that knew of the sheets' contacts alone led the lowest one into what bears it. On a plane
 /// five such sheets stored twelve times what they had, and on a box they exploded.
@@ -74,6 +75,38 @@ stretch = {{ stiffness = 5000 }}
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LandingSheets, kMethods, name_of_method);
+
+/// Rounds that lead single bodies, whole piles and their halves alone stop no pile of so many: what
+/// came on from above pressed the lower sheets into each other, and they stored twenty times what
+/// they had fallen.
+TEST_P(LandingPile, GainsNothing) {
+    std::string text = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 10
+[contact]
+thickness = 0.004
+[[obstacle]]
+shape = "plane"
+point = [0, 0, 0]
+)";
+    for (int sheet = 0; sheet < 32; ++sheet) {
+        text += fmt::format(R"(
+[[cloth]]
+grid = {{ size = [0.1, 0.1], resolution = [5, 5] }}
+translate = [0, {}, 0]
+density = 0.2
+stretch = {{ stiffness = 2000 }}
+)",
+                            0.005 + 0.0045 * sheet);
+    }
+    const Account account = run_of(text, 8);
+    EXPECT_LT(account.gained, 0.01 * account.fallen);
+    EXPECT_GT(account.fallen, 0.003);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LandingPile, kMethods, name_of_method);
 
 /// At 5 m/s, by 2 cm per substep.
 std::string falling_block(int iterations, const std::string& contact) {
