@@ -58,8 +58,10 @@ std::vector<double> shortest_at_held(const Model& model, const std::vector<HeldB
             for (const int held : kind[e]) {
                 if (!is_held(model, held)) continue;
                 for (const int v : kind[e]) {
-                    if (is_held(model, v)) continue;
-                    double& least = shortest[at(body_of[at(v)])];
+                    const int body = body_of[at(v)];
+                    // Ties may lead to what is none of them.
+                    if (is_held(model, v) || body < 0) continue;
+                    double& least = shortest[at(body)];
                     least = std::min(least, length(place(v) - place(held)));
                 }
             }
