@@ -6,10 +6,10 @@
 
 #include "kernels/lanes.h"
 
-/// Bodies that touch are in groups, and these in parts of parts, on so many levels at the most.
-#define WEFT_MOST_GROUP_LEVELS 7
 /// Of a code, so many bits are for a number of levels; those above are for the body.
 #define WEFT_LEVEL_BITS 3
+/// Bodies that touch are in groups, and these in parts of parts, on so many levels at the most.
+#define WEFT_MOST_GROUP_LEVELS ((1 << WEFT_LEVEL_BITS) - 1)
 
 WEFT_KERNELS_BEGIN
 

@@ -20,7 +20,7 @@ public:
     /// [m]
     void place(int substep, std::vector<int> groups, const std::vector<Vec3>& centres);
     int body_count() const { return static_cast<int>(parts_.size()); }
-    /// At least two; of all bodies, the parts on the last level have four to seven, or less.
+    /// From 16 bodies on as many as make parts of four to seven of them, up to a limit.
     int level_count() const { return level_count_; }
     std::vector<BufferStorage*> buffers() { return {&firsts, &counts, &members, &leaders}; }
 

@@ -191,8 +191,8 @@ TEST(BodiesAsWholes, WhatObstaclesHoldIsShiftedTheLess) {
     EXPECT_NEAR(body.motions[0].x, shift, 1e-7f);
 }
 
-/// A code of body 1, on no level of this one's group.
-constexpr int kOfFirst = 1 << WEFT_LEVEL_BITS;
+/// Of body 1, which is on no level of the other one's group.
+constexpr int kCodeOfOne = 1 << WEFT_LEVEL_BITS;
 
 /// Two edges that cross, of a body each.
 struct CrossedEdges {
@@ -268,7 +268,7 @@ TEST(BodiesAsWholes, EachSideHasAContactOnceWithAllOfItsWeight) {
     for (std::size_t body = 0; body < 2; ++body) {
         ASSERT_EQ(edges.push_counts[body], 1);
         EXPECT_EQ(edges.push_needs[body], 1);
-        EXPECT_EQ(edges.codes[body], kOfFirst * (1 - static_cast<int>(body)));
+        EXPECT_EQ(edges.codes[body], kCodeOfOne * (1 - static_cast<int>(body)));
         EXPECT_NEAR(edges.sides[body].w, 0.01f, 1e-7f);
         EXPECT_EQ(edges.forces[body].x, 1.0f);
         EXPECT_EQ(edges.forces[body].y, 2.0f);
@@ -293,11 +293,11 @@ TEST(BodiesAsWholes, ContactsKnowOnHowManyLevelsBothSidesAreOfOneGroup) {
     CrossedEdges edges;
     edges.leaders[1] = 0;
     edges.collect();
-    EXPECT_EQ(edges.codes[0], kOfFirst + 1);
+    EXPECT_EQ(edges.codes[0], kCodeOfOne + 1);
     EXPECT_EQ(edges.codes[1], 1);
     edges.leaders[3] = 0;
     edges.collect();
-    EXPECT_EQ(edges.codes[0], kOfFirst + 2);
+    EXPECT_EQ(edges.codes[0], kCodeOfOne + 2);
 }
 
 TEST(BodiesAsWholes, ContactsOfABodyWithItselfDoNotPushIt) {
