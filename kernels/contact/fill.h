@@ -154,7 +154,7 @@ WEFT_INLINE contact_rows add_contact(contact_rows row, mask is_on, mask pushes, 
     row.nearest = is_on ? smaller(row.nearest, f.distance) : row.nearest;
     const mask is_near =
         smaller(f.distance, f.push.ahead) < splat(WEFT_CONTACT_MARGIN * settings.range);
-    const mask bears = part.side * part.weight > splat(0.0f);
+    const mask bears = part.side * part.weight * f.stiffness > splat(0.0f);
     const mask may_push = both(both(is_apart, pushes), both(is_near, bears));
     return add_entry(row, may_push, f, c, part, settings.range, out);
 }

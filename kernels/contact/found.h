@@ -8,6 +8,9 @@
 #include "kernels/contact/closest.h"
 #include "kernels/contact/rows.h"
 
+/// With less of its stiffness than that, a contact does not push.
+#define WEFT_LEAST_PART 0.01f
+
 WEFT_KERNELS_BEGIN
 
 /// What the scene says of contacts.
@@ -77,7 +80,7 @@ typedef struct {
     real distance;  ///< [m]
     real4 room;     ///< of each vertex before its plane [m]
     contact_push push;
-    real stiffness;  ///< [N/m]
+    real stiffness;  ///< [N/m]; 0: it does not push
 } contact_found;
 
 /// The closest points. is_edges  1: x0 x1 and x2 x3 are edges; 0: x0 is a vertex, x1 x2 x3 a
@@ -159,6 +162,20 @@ WEFT_INLINE contact_push push_of(contact_pair p, closest_points closest, real3 n
     return push;
 }
 
+/// Which part of its stiffness two edges' contact has: it fades to nothing within a range of an
+/// edge's end. Surfaces that lie on each other cross at many edges, and as they slide, crossings
+/// come and go over ends. Did they at once, each would be a spring that is there, compressed, or is
+/// no more: of both, what is lost or won becomes motion, and sheets that lie on each other heated
+/// up. At an end it is the vertex there that meets the other surface, as a pair of its own.
+/// w  of the four ends
+WEFT_INLINE real edges_part(contact_pair p, real4 w, real range) {
+    const real one = splat(1.0f);
+    const real first = smaller(size_of(w.x), size_of(w.y)) * length3(subtract(p.x1, p.x0));
+    const real second = smaller(size_of(w.z), size_of(w.w)) * length3(subtract(p.x3, p.x2));
+    const real part = smaller(first / range, one) * smaller(second / range, one);
+    return part < splat(WEFT_LEAST_PART) ? splat(0.0f) : part;
+}
+
 /// is_edges  as in closest_of
 WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_settings settings) {
     const real zero = splat(0.0f);
@@ -173,6 +190,9 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
     const real go3 = dot3(f.normal, p.way3);
     f.push = push_of(p, closest, f.normal, f.distance, splat(settings.range), is_edges);
     f.stiffness = splat(settings.stiffness) * p.least;
+    if (is_edges) {
+        f.stiffness = f.stiffness * edges_part(p, f.push.weights, splat(settings.range));
+    }
 
     // Heights over x0 along n: of the corners, and of the closest points.
     const real h1 = dot3(f.normal, subtract(p.x1, p.x0));

@@ -1,5 +1,6 @@
 #include "simulation/contact/energy.h"
 
+#include "kernels/contact/rising.h"
 #include "kernels/contact/terms.h"
 
 namespace weft {
@@ -18,6 +19,15 @@ ContactEnergy::ContactEnergy(Model& model, const ContactRows& rows, Sticking* st
     if (sticking_ != nullptr) sticking_->add_keep(body_.launches);
 }
 
+void ContactEnergy::let_rise(Buffer<float4>& targets) {
+    targets_ = &targets;
+    body_.launches.push_back(launch(kernels::let_rise, model_.vertices(), *model_.positions,
+                                    *model_.velocities, rows_.table.rows(), rows_.table.counts(),
+                                    rows_.corner0, rows_.corner1, rows_.corner2, rows_.corner3,
+                                    rows_.normals, rows_.weights, rows_.measures, targets,
+                                    *model_.gravity, static_cast<float>(model_.h), kInstance));
+}
+
 void ContactEnergy::add(Step& step, const std::vector<Region>& regions, int iteration) {
     const int all = model_.vertex_count();
     for (const Region& region : regions) {
@@ -30,6 +40,8 @@ void ContactEnergy::add(Step& step, const std::vector<Region>& regions, int iter
             .updates(energies_, all + first, all + last);
         rows_.add_reads(task, region.begin, region.end, first, last);
         if (sticking_ != nullptr) sticking_->add_keep_accesses(task, first, last);
+        if (targets_ == nullptr) continue;
+        task.reads(*model_.velocities, first, last).updates(*targets_, first, last);
     }
 }
 

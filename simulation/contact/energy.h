@@ -21,6 +21,10 @@ public:
     /// sticking: what is kept of slips in the same task; may be none. kind: of the task
     ContactEnergy(Model& model, const ContactRows& rows, Sticking* sticking, int kind);
 
+    /// Lets what rises off its contacts do so without their help, in the same task
+    /// (kernels/contact/rising.h). targets: [vertices] x - x~, which the next substep starts from
+    void let_rise(Buffer<float4>& targets);
+
     const TaskBody& body() const { return body_; }
     /// Behind all that moves vertices in a substep: what measures it.
     void add(Step& step, const std::vector<Region>& regions, int iteration);
@@ -40,6 +44,7 @@ private:
     Model& model_;
     ContactRows rows_;
     Sticking* sticking_;
+    Buffer<float4>* targets_ = nullptr;  ///< null: nothing starts from those of the substep before
     Buffer<float> energies_;
     TaskBody body_;
 };

@@ -14,7 +14,9 @@ DescentSubstep::DescentSubstep(Model& model, BodyMomentum::Solves solves, int fi
       contact_(ContactResponse::of(model, first_kind)),
       momentum_(model, contact_.get(), nullptr, targets_, solves,
                 first_kind + (contact_ ? static_cast<int>(contact_->kinds().size()) : 0)),
-      first_kind_(first_kind) {}
+      first_kind_(first_kind) {
+    if (contact_) contact_->energy().let_rise(targets_);
+}
 
 int DescentSubstep::next_kind() const {
     std::vector<std::string> kinds;

@@ -4,6 +4,7 @@
 #include "kernels/contact/fences.h"
 #include "kernels/contact/fill.h"
 #include "kernels/contact/quiet.h"
+#include "kernels/contact/rising.h"
 #include "kernels/contact/rows.h"
 #include "kernels/contact/sticking.h"
 #include "kernels/contact/terms.h"
@@ -179,6 +180,18 @@ void measure_case(KernelCase& c) {
                       contacts.measures, energies, c.items, kInstance);
 }
 
+void rise_case(KernelCase& c) {
+    OwnContacts contacts(c);
+    auto& velocities = add_points(c, "velocities", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    auto& gravity = c.add<float4>("gravity", 2);
+    if (c.flavour == Flavour::kRandom) gravity[1] = {0.3f, -0.7f, 0.2f, 0.0f};
+    c.launch = launch(kernels::let_rise, c.segments, contacts.positions, velocities,
+                      contacts.rows.rows, contacts.rows.counts, contacts.corner0, contacts.corner1,
+                      contacts.corner2, contacts.corner3, contacts.normals, contacts.weights,
+                      contacts.measures, targets, gravity, 0.5f, kInstance);
+}
+
 void recall_case(KernelCase& c) {
     Contacts contacts(c);
     auto& kept = add_points(c, "kept", 3 * c.items);
@@ -308,10 +321,10 @@ const bool added =
     add_case("find_busy_patches", busy_case) && add_case("fill_contacts", fill_case);
 const bool added_of_solvers =
     add_case("contact_terms", terms_case) && add_case("measure_contacts", measure_case) &&
-    add_case("share_masses", share_case) && add_case("project_contacts", project_case) &&
-    add_case("rub_contacts", rub_case) && add_case("couple_contacts", couple_case) &&
-    add_case("multiply_contacts", multiply_case) && add_case("recall_slips", recall_case) &&
-    add_case("keep_slips", keep_case);
+    add_case("let_rise", rise_case) && add_case("share_masses", share_case) &&
+    add_case("project_contacts", project_case) && add_case("rub_contacts", rub_case) &&
+    add_case("couple_contacts", couple_case) && add_case("multiply_contacts", multiply_case) &&
+    add_case("recall_slips", recall_case) && add_case("keep_slips", keep_case);
 
 }  // namespace
 }  // namespace weft::test
