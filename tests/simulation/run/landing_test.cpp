@@ -64,6 +64,31 @@ private:
     };
 };
 
+/// Sheets above a plane and each other, to be followed by what [contact] has.
+/// size  of a side [m]; resolution: vertices on it
+std::string pile_of(int sheets, double size, int resolution) {
+    std::string text = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+substeps = 10
+[[obstacle]]
+shape = "plane"
+point = [0, 0, 0]
+)";
+    for (int sheet = 0; sheet < sheets; ++sheet) {
+        text += fmt::format(R"(
+[[cloth]]
+grid = {{ size = [{0}, {0}], resolution = [{1}, {1}] }}
+translate = [0, {2}, 0]
+density = 0.2
+stretch = {{ stiffness = 2000 }}
+)",
+                            size, resolution, 0.005 + 0.0045 * sheet);
+    }
+    return text + "[contact]\n";
+}
+
 class LandingSheets : public Landing {};
 class LandingPile : public Landing {};
 class LyingPile : public Landing {};
@@ -107,28 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, LandingSheets, kMethods, name_of_method);
 /// came on from above pressed the lower sheets into each other, and they stored twenty times what
 /// they had fallen.
 TEST_P(LandingPile, GainsNothing) {
-    std::string text = R"(
-[scene]
-frames = 1
-dt = 0.016666667
-substeps = 10
-[contact]
-thickness = 0.004
-[[obstacle]]
-shape = "plane"
-point = [0, 0, 0]
-)";
-    for (int sheet = 0; sheet < 32; ++sheet) {
-        text += fmt::format(R"(
-[[cloth]]
-grid = {{ size = [0.1, 0.1], resolution = [5, 5] }}
-translate = [0, {}, 0]
-density = 0.2
-stretch = {{ stiffness = 2000 }}
-)",
-                            0.005 + 0.0045 * sheet);
-    }
-    const Account account = run_of(text, 8);
+    const Account account = run_of(pile_of(32, 0.1, 5) + "thickness = 0.004\n", 8);
     EXPECT_LT(account.gained, 0.01 * account.fallen);
     EXPECT_GT(account.fallen, 0.003);
 }
@@ -138,31 +142,9 @@ INSTANTIATE_TEST_SUITE_P(Methods, LandingPile, kMethods, name_of_method);
 /// Three thicknesses to an edge. What held a sheet up in the substep before held it up while it
 /// rose, too, and edges began and ceased to press at once: such piles swelled, by 6 mJ of 25.
 TEST_P(LyingPile, StaysCalm) {
-    std::string text = R"(
-[scene]
-frames = 1
-dt = 0.016666667
-substeps = 10
-[solver]
-iterations = 10
-[contact]
-thickness = 0.004
-friction = 0.3
-[[obstacle]]
-shape = "plane"
-point = [0, 0, 0]
-)";
-    for (int sheet = 0; sheet < 8; ++sheet) {
-        text += fmt::format(R"(
-[[cloth]]
-grid = {{ size = [0.2, 0.2], resolution = [16, 16] }}
-translate = [0, {}, 0]
-density = 0.2
-stretch = {{ stiffness = 2000 }}
-)",
-                            0.005 + 0.0045 * sheet);
-    }
-    EXPECT_LT(gained_behind(text, 7, 30), 2e-4);
+    const std::string contact = "thickness = 0.004\nfriction = 0.3\n";
+    const std::string solver = "[solver]\niterations = 10\n";
+    EXPECT_LT(gained_behind(pile_of(8, 0.2, 16) + contact + solver, 7, 30), 2e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, LyingPile,
