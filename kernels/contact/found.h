@@ -162,17 +162,17 @@ WEFT_INLINE contact_push push_of(contact_pair p, closest_points closest, real3 n
     return push;
 }
 
-/// Which part of its stiffness two edges' contact has: it fades to nothing within a range of an
+/// Which part of its stiffness two edges' contact has: it fades to nothing within a length of an
 /// edge's end. Surfaces that lie on each other cross at many edges, and as they slide, crossings
 /// come and go over ends. Did they at once, each would be a spring that is there, compressed, or is
 /// no more: of both, what is lost or won becomes motion, and sheets that lie on each other heated
 /// up. At an end it is the vertex there that meets the other surface, as a pair of its own.
 /// w  of the four ends
-WEFT_INLINE real edges_part(contact_pair p, real4 w, real range) {
+WEFT_INLINE real edges_part(contact_pair p, real4 w, real length) {
     const real one = splat(1.0f);
     const real first = smaller(size_of(w.x), size_of(w.y)) * length3(subtract(p.x1, p.x0));
     const real second = smaller(size_of(w.z), size_of(w.w)) * length3(subtract(p.x3, p.x2));
-    const real part = smaller(first / range, one) * smaller(second / range, one);
+    const real part = smaller(first / length, one) * smaller(second / length, one);
     return part < splat(WEFT_LEAST_PART) ? splat(0.0f) : part;
 }
 
@@ -191,7 +191,7 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
     f.push = push_of(p, closest, f.normal, f.distance, splat(settings.range), is_edges);
     f.stiffness = splat(settings.stiffness) * p.least;
     if (is_edges) {
-        f.stiffness = f.stiffness * edges_part(p, f.push.weights, splat(settings.range));
+        f.stiffness = f.stiffness * edges_part(p, f.push.weights, splat(0.5f * settings.range));
     }
 
     // Heights over x0 along n: of the corners, and of the closest points.
