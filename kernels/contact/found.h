@@ -191,7 +191,7 @@ WEFT_INLINE contact_found find_contact(contact_pair p, int is_edges, contact_set
     f.push = push_of(p, closest, f.normal, f.distance, splat(settings.range), is_edges);
     f.stiffness = splat(settings.stiffness) * p.least;
     if (is_edges) {
-        f.stiffness = f.stiffness * edges_part(p, f.push.weights, splat(0.5f * settings.range));
+        f.stiffness = f.stiffness * edges_part(p, f.push.weights, splat(0.7f * settings.range));
     }
 
     // Heights over x0 along n: of the corners, and of the closest points.
