@@ -77,4 +77,10 @@ void BufferStorage::resize(std::size_t count) {
     host_ = zeroed_pages(room_);
 }
 
+void BufferStorage::clear() {
+    ++generation_;
+    host_.reset();
+    host_ = zeroed_pages(room_);
+}
+
 }  // namespace weft

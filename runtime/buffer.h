@@ -33,7 +33,9 @@ public:
     /// Another size, between frames: with zeros or what was there before, maybe elsewhere in
     /// memory. Executors that know the buffer have to be told (Executor::rebind).
     void resize(std::size_t count);
-    /// How often that has happened.
+    /// Zeros, as at the beginning, likewise.
+    void clear();
+    /// How often one of these has happened.
     int generation() const { return generation_; }
     /// The memory for who may need it a little longer than the buffer has it: a driver.
     std::shared_ptr<const void> memory() const { return host_; }

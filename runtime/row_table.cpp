@@ -144,6 +144,10 @@ void RowTable::grow(std::span<const float> unseen) {
     ++age_[0];
 }
 
+void RowTable::forget() {
+    for (const auto& column : columns_) column->clear();
+}
+
 std::vector<BufferStorage*> RowTable::resized_buffers() {
     std::vector<BufferStorage*> buffers;
     for (const auto& column : columns_) buffers.push_back(column.get());

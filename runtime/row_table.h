@@ -68,11 +68,15 @@ public:
     void grow(std::span<const float> unseen = {});
     /// [strips] how many times as much was wanted as there was room for; from 1 to 4.
     std::vector<float> shortages() const;
+    /// All entries are zeros again. What reads rows side by side reads beyond the end of short
+    /// ones, and takes nothing of what is there; but nothing of what is not a number is not a
+    /// number, and a row without any has what others left in its place.
+    void forget();
     /// How often it has grown.
     int generation() const { return age_[0]; }
     /// [1] the same, for kernels that keep entries over substeps: what they kept is gone then.
     Buffer<int>& age() { return age_; }
-    /// What grow() changes, for Executor::rebind(): the columns have moved,
+    /// What grow() and forget() change, for Executor::rebind(): the columns have moved,
     std::vector<BufferStorage*> resized_buffers();
     /// and these have new values, for Executor::host_wrote().
     std::vector<BufferStorage*> written_buffers() { return {&rows_, &entry_begin_, &age_}; }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
 
 #include "runtime/clock.h"
@@ -200,6 +201,15 @@ void PlannedExecutor::record(const FramePlan& plan, const RunTimes& times, int i
 }
 
 bool PlannedExecutor::make_room() { return grow_tables(maker_->tables(), *executor_); }
+
+void PlannedExecutor::forget_entries() {
+    std::vector<BufferStorage*> columns;
+    for (RowTable* table : maker_->tables()) {
+        table->forget();
+        std::ranges::copy(table->resized_buffers(), std::back_inserter(columns));
+    }
+    executor_->rebind(columns);
+}
 
 void PlannedExecutor::make_room_ahead() {
     for (RowTable* table : maker_->tables()) {

@@ -77,6 +77,9 @@ public:
     /// Lets tables grow in which rows had no room. Says whether there were any: then what has been
     /// computed is of no use.
     bool make_room();
+    /// Entries of tables are as at the beginning: those of a frame that went wrong may be no
+    /// numbers. Between frames.
+    void forget_entries();
     /// Lets tables grow whose rows had little room left, so that the frame to come need not be run
     /// twice. Between frames.
     void make_room_ahead();

@@ -62,6 +62,7 @@ std::shared_ptr<const SimulationState> LiveModel::snapshot() const {
 }
 
 void LiveModel::restore(const SimulationState& state) {
+    planned_->forget_entries();
     state.put(*model_, *solver_);
     snapshot_.reset();
     executor().host_wrote(*model_->positions);

@@ -77,6 +77,18 @@ TEST_F(RowTables, StripsThatWereTooSmallGrowAndTheirNeighbours) {
     EXPECT_LT(*all.rbegin(), static_cast<int>(column.count()));
 }
 
+TEST_F(RowTables, ForgottenEntriesAreZerosAgain) {
+    RowTable table("table", items_, 2);
+    auto& column = table.add_column<float>("distances");
+    const std::size_t count = column.count();
+    std::ranges::fill(column.span(), 7.0f);
+    table.forget();
+    EXPECT_EQ(column.count(), count);
+    EXPECT_EQ(column.generation(), 1);
+    EXPECT_EQ(std::ranges::count(column.span(), 0.0f), static_cast<long>(count));
+    places(table, {2, 2, 2, 2});
+}
+
 /// Whatever was wanted: growing anew in each frame would cost more than it saves.
 TEST_F(RowTables, GrowsOnceForWhatIsWanted) {
     for (int wanted = 1; wanted < 40; ++wanted) {

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "runtime/device_list.h"
 #include "runtime/error.h"
 #include "runtime/opencl/opencl_device.h"
@@ -143,6 +146,23 @@ TEST_F(GrowingTables, OnOpenClOfEveryKind) {
                 }
             }
         }
+    }
+}
+
+/// Whoever goes back does so because something went wrong, and may have left no numbers.
+TEST_F(GrowingTables, WhatGoesBackFindsNoEntries) {
+    const auto run = simulation(cpus(1), kPlenty);
+    run->advance();
+    const Checkpoint checkpoint = run->checkpoint();
+    run->advance();
+    const auto columns = solver_->tables().front()->resized_buffers();
+    ASSERT_FALSE(columns.empty());
+    for (BufferStorage* column : columns) std::memset(column->host(), 0xff, column->bytes());
+    run->resume(checkpoint);
+    for (BufferStorage* column : columns) {
+        const auto* bytes = static_cast<const unsigned char*>(column->host());
+        EXPECT_TRUE(std::all_of(bytes, bytes + column->bytes(), [](int b) { return b == 0; }))
+            << column->name();
     }
 }
 
