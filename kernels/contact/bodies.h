@@ -361,17 +361,19 @@ WEFT_INLINE real3 way_with_body(WEFT_GLOBAL const float4* motions,
 }
 
 /// Moves the vertices of free bodies before the first iteration of a substep.
+/// are_led [bodies + 1] 1 for those that are to be moved, 0 for others
 /// less    by how much less bodies go than they would [m]
 /// others  as in move_bodies
 WEFT_KERNEL(lead_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL const float4* motions,
             WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
-            WEFT_GLOBAL const int* bodies, float less, int body_count) {
+            WEFT_GLOBAL const float* are_led, WEFT_GLOBAL const int* bodies, float less,
+            int body_count) {
     const real4 x = load4(positions, i);
     const integer body = load_index(bodies, i);
     const real3 way = way_with_body(motions, strains, moments_of, xyz(x), body, body_count);
     const real far = length3(gather_motion(motions, body_count + 1, body).shift);
     const real left = larger(far - splat(less), splat(0.0f)) / divisor(far);
-    const real part = less > 0.0f ? left : splat(1.0f);
+    const real part = (less > 0.0f ? left : splat(1.0f)) * gather(are_led, body);
     store4(positions, i, with_w(add_scaled(xyz(x), way, part), x.w));
 }
 

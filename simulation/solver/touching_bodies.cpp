@@ -13,8 +13,8 @@ namespace weft {
 namespace {
 
 constexpr int kRounds = 12;
-/// More for each level of groups beyond the usual two; for sheets alone, as what is led before the
-/// first iteration, too, has twice as many anyway.
+/// More for each level of groups beyond the usual two, where there are sheets: solids, which are
+/// led before the first iteration, too, have twice as many anyway.
 constexpr int kLevels = 2;
 constexpr int kRoundsPerLevel = 8;
 /// Before the first iteration, where bodies touch obstacles alone: 12 do no better, and 3 worse.
@@ -68,6 +68,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       bodies_(bodies),
       resting_(std::move(resting)),
       held_(held),
+      has_multipliers_(multipliers != nullptr),
       is_rubbed_(rubbing_of(model).friction > 0 ||
                  (resting_ && bodies.has_solids() && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
@@ -205,8 +206,15 @@ void TouchingBodies::add_rounds(Step& step, const TaskBody& body,
     add_all(step, collect_, body, regions, positions, {round_count(), iteration});
 }
 
+bool TouchingBodies::is_solid(int body) const {
+    return solids_ && solids_->stiffness()[at(body)] > 0.0f;
+}
+
 int TouchingBodies::round_count() const {
-    const int more = may_be_led() ? 0 : std::max(level_count() - kLevels, 0);
+    int body = 0;
+    while (body < body_count() && is_solid(body)) ++body;
+    const bool has_sheets = body < body_count();
+    const int more = has_sheets ? std::max(level_count() - kLevels, 0) : 0;
     return kRounds + kRoundsPerLevel * more;
 }
 
@@ -276,15 +284,16 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
     }
 }
 
-/// Only solids start from what has held them up as wholes: what bears a sheet is not alike all
-/// over.
+/// Solids start from what has held them up as wholes. What bears a sheet is not alike all over:
+/// where solvers descend, it starts from what has held up each of its vertices, and piles that are
+/// led as well would have that twice.
 Launch TouchingBodies::lead(float less) {
     first_collect_.launches = collect(*model_.positions);
-    for (std::size_t body = 0; body < first_run_.count(); ++body) {
-        are_led_[body] = solids_->stiffness()[body] > 0.0f ? 1.0f : 0.0f;
+    for (int body = 0; body < body_count(); ++body) {
+        are_led_[at(body)] = has_multipliers_ || is_solid(body) ? 1.0f : 0.0f;
     }
     return launch(kernels::lead_bodies, model_.vertices(), *model_.positions, motions_, strains_,
-                  moments_.moments(), body_of_, less, body_count());
+                  moments_.moments(), are_led_, body_of_, less, body_count());
 }
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {

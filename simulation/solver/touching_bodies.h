@@ -37,8 +37,8 @@ public:
     /// Whether there is reason to lead them before the first iteration, too: solids that may touch
     /// others, or convex obstacles.
     bool may_be_led() const { return solids_ && (body_count() > 1 || resting_); }
-    /// From now on they are, by what moves the vertices of a region's strips behind
-    /// add_first_rounds(), by so much less far [m]. Behind sum().
+    /// From now on they are (with multipliers sheets, too), by what moves the vertices of a
+    /// region's strips behind add_first_rounds(), by so much less far [m]. Behind sum().
     Launch lead(float less);
     /// body: as add_rounds'
     void add_first_rounds(Step& step, const TaskBody& body, const std::vector<Region>& regions);
@@ -74,6 +74,7 @@ private:
     std::vector<Launch> solve(int has_moved, int level);
     int body_count() const { return bodies_.body_count(); }
     int level_count() const { return groups_ ? groups_->level_count() : 1; }
+    bool is_solid(int body) const;
     /// Behind the last iteration.
     int round_count() const;
 
@@ -81,6 +82,7 @@ private:
     FreeBodies& bodies_;
     std::unique_ptr<RestingBodies> resting_;  ///< null: see resting()
     float held_;
+    bool has_multipliers_;
     int is_rubbed_;  ///< 1 with friction
     int parts_;      ///< that are summed up
     BodyPushes pushes_;

@@ -292,9 +292,10 @@ void lead_case(KernelCase& c) {
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
     auto& strains = add_points(c, "strains", 2 * (kBodies + 1));
     auto& moments = add_moments(c, kBodies);
+    auto& are_led = add_flags(c, "are_led", kBodies + 1);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     c.launch = launch(kernels::lead_bodies, c.segments, positions, motions, strains, moments,
-                      bodies, std::max(c.random.real(-0.5f, 1.0f), 0.0f), kBodies);
+                      are_led, bodies, std::max(c.random.real(-0.5f, 1.0f), 0.0f), kBodies);
 }
 
 const bool added =
