@@ -9,6 +9,7 @@
 
 #include "simulation/checks/energy_limits.h"
 #include "simulation/checks/start_checks.h"
+#include "simulation/families/tetrahedra/tetrahedra.h"
 
 namespace weft {
 
@@ -49,6 +50,15 @@ double most_strain(const Model& model, const Strain& strain) {
     if (!is_visible(model, strain)) return std::numeric_limits<double>::infinity();
     return std::clamp(kMostStrain * kVisibleStrain / std::max(strain.rms, kVisibleStrain),
                       kMostMotion, kMostStrain);
+}
+
+/// [J] of which cloth beside them is no excuse.
+double energy_of_solids(const Model& model, const Energies& energies) {
+    double sum = 0.0;
+    for (std::size_t f = 0; f < model.families.size(); ++f) {
+        if (dynamic_cast<const Tetrahedra*>(&*model.families[f])) sum += energies.elements[f];
+    }
+    return sum;
 }
 
 }  // namespace
@@ -101,10 +111,12 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double strained = entry.energies.strain();
     const double pressed = entry.energies.contact.value_or(0.0);
     const double most = most_strain(model, strain);
+    const double in_solids = energy_of_solids(model, entry.energies);
     const auto is_fine = [&](double rounding) {
         const double enough = had + small_ + rounding;
         return lifted <= small_lift_ + rounding && motion <= kMostMotion * enough &&
-               strained <= most * enough && pressed <= kMostInContacts * enough &&
+               strained <= most * enough && in_solids <= kMostHiddenStrainOfSolids * enough &&
+               pressed <= kMostInContacts * enough &&
                (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
     };
     // What rounding gives takes a while to find out, and is hardly ever asked for.
