@@ -20,7 +20,8 @@ WEFT_KERNELS_BEGIN
 /// strides    [vertices] written: what has changed of them
 /// bodies     [vertices] whose each is
 /// carried    [substeps * body_count] xyz: u, what the body's group does together in the substep,
-///            w: the farthest that the scene leads one of the group: so far others may be pushed [m]
+///            w: the farthest that the scene leads one of the group, and that obstacles may push
+///            it back: so far others may be pushed [m]
 /// margin     by which a vertex may go farther than that and its inertia [m]
 /// most       that it may go [m]
 WEFT_KERNEL(begin_contacts, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const float4* previous,

@@ -1,6 +1,7 @@
 #include "simulation/contact/common_motion.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "simulation/contact/disjoint_groups.h"
 #include "simulation/families/convert.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kWorthwhile = 0.125;  ///< of the thickness: what groups do less than, is nothing
 constexpr double kNoFence = 3e38;
+constexpr double kAll = std::numeric_limits<double>::infinity();  ///< of any way
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -45,7 +47,7 @@ void CommonMotion::hold() {
     foreseen_.lead_alike();
     const std::vector<Vec3> nothing(bodies().size());
     for (int substep = 0; substep < substeps_; ++substep) {
-        carry(substep, nothing);
+        carry(substep, nothing, std::vector<double>(bodies().size()));
         open_fences(substep);
     }
 }
@@ -70,15 +72,21 @@ void CommonMotion::place(double time) {
 }
 
 /// Groups are those that meet if all move as their groups do. Who has met does so for the rest of
-/// the frame: straight on they would pass through each other.
+/// the frame: straight on they would pass through each other. Who has come to an obstacle stays
+/// there: straight on it would be behind it.
 void CommonMotion::place_substep(int substep, Groups& known) {
-    auto& [groups, is_blocked] = known;
+    auto& [groups, has_arrived] = known;
+    std::vector<double> room(bodies().size());
+    const auto all_or_nothing = [](char arrived) { return arrived ? 0.0 : kAll; };
+    std::ranges::transform(has_arrived, room.begin(), all_or_nothing);
     std::vector<Vec3> together;
+    std::vector<double> back;
     std::vector<IntervalBox> boxes;
     for (bool goes_on = true; goes_on;) {
-        together = common_velocities(substep, groups, is_blocked);
-        boxes = reached(substep, together);
-        goes_on = block(substep, together, boxes, is_blocked);
+        together = common_velocities(substep, groups, room);
+        back = ways_back(substep, groups, together, room);
+        boxes = reached(substep, together, back);
+        goes_on = block(substep, together, room);
         for (const auto& [c, d] : foreseen_.near()) {
             const int a = chunks()[at(c)].body;
             const int b = chunks()[at(d)].body;
@@ -89,7 +97,10 @@ void CommonMotion::place_substep(int substep, Groups& known) {
             goes_on = true;
         }
     }
-    carry(substep, together);
+    carry(substep, together, back);
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        if (room[b] < way_of(b, substep)) has_arrived[b] = 1;
+    }
     if (grouped_) grouped_->place(substep, free_groups(boxes), centres());
     const bool somebody_moves = std::ranges::any_of(together, is_moving);
     const auto is_led_alike = [&](const ForeseenMotion::Body& b) {
@@ -123,55 +134,79 @@ std::vector<int> CommonMotion::free_groups(const std::vector<IntervalBox>& boxes
     return groups;
 }
 
-/// Whether somebody moves into an obstacle who was not known to do so.
+/// Whether somebody has less room before an obstacle than was known.
 bool CommonMotion::block(int substep, const std::vector<Vec3>& together,
-                         const std::vector<IntervalBox>& boxes,
-                         std::vector<char>& is_blocked) const {
+                         std::vector<double>& room) const {
     bool is_new = false;
     for (const auto& [c, o] : foreseen_.in_the_way()) {
-        const std::size_t body = at(chunks()[at(c)].body);
-        if (!is_moving(together[body])) continue;
-        if (gap_between(boxes[at(c)], foreseen_.obstacles().box(substep, o)) > 0.0) continue;
-        is_blocked[body] = 1;
+        const ForeseenMotion::Chunk& chunk = chunks()[at(c)];
+        if (!is_moving(together[at(chunk.body)])) continue;
+        const double gap =
+            gap_between(foreseen_.begin_of(chunk, substep), foreseen_.obstacles().box(substep, o));
+        if (gap >= room[at(chunk.body)]) continue;
+        room[at(chunk.body)] = gap;
         is_new = true;
     }
     return is_new;
 }
 
+/// Groups go as far as all of their bodies can.
 std::vector<Vec3> CommonMotion::common_velocities(int substep, const std::vector<int>& groups,
-                                                  const std::vector<char>& is_blocked) const {
+                                                  const std::vector<double>& room) const {
     std::vector<ForeseenMotion::Body> sums(bodies().size());
     std::vector<Vec3> momentum(bodies().size());
+    std::vector<double> least(bodies().size(), kAll);
     for (std::size_t b = 0; b < bodies().size(); ++b) {
-        ForeseenMotion::Body& sum = sums[at(groups[b])];
-        sum.mass += bodies()[b].mass;
-        sum.is_held = sum.is_held || bodies()[b].is_held || is_blocked[b] != 0;
-        momentum[at(groups[b])] =
-            momentum[at(groups[b])] + bodies()[b].mass * bodies()[b].velocity[at(substep)];
+        const std::size_t g = at(groups[b]);
+        sums[g].mass += bodies()[b].mass;
+        least[g] = std::min(least[g], bodies()[b].is_held ? 0.0 : room[b]);
+        momentum[g] = momentum[g] + bodies()[b].mass * bodies()[b].velocity[at(substep)];
     }
     std::vector<Vec3> together(bodies().size());
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         const std::size_t g = at(groups[b]);
         const Vec3 velocity = (1.0 / sums[g].mass) * momentum[g];
-        const bool counts = model_.h * length(velocity) >= kWorthwhile * thickness_;
-        if (counts && !sums[g].is_held) together[b] = velocity;
+        const double way = model_.h * length(velocity);
+        const double part = std::min(least[g] / std::max(way, 1e-300), 1.0);
+        if (part * way >= kWorthwhile * thickness_) together[b] = part * velocity;
     }
     return together;
 }
 
-std::vector<IntervalBox> CommonMotion::reached(int substep,
-                                               const std::vector<Vec3>& together) const {
+double CommonMotion::way_of(std::size_t body, int substep) const {
+    return model_.h * length(bodies()[body].velocity[at(substep)]);
+}
+
+/// How far obstacles may push bodies back from where they move together [m].
+std::vector<double> CommonMotion::ways_back(int substep, const std::vector<int>& groups,
+                                            const std::vector<Vec3>& together,
+                                            const std::vector<double>& room) const {
+    std::vector<char> arrives(bodies().size());
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        if (room[b] < way_of(b, substep)) arrives[at(groups[b])] = 1;
+    }
+    std::vector<double> back(bodies().size());
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        if (arrives[at(groups[b])]) back[b] = model_.h * length(together[b]);
+    }
+    return back;
+}
+
+std::vector<IntervalBox> CommonMotion::reached(int substep, const std::vector<Vec3>& together,
+                                               const std::vector<double>& back) const {
     std::vector<IntervalBox> boxes;
     for (const ForeseenMotion::Chunk& chunk : chunks()) {
-        boxes.push_back(foreseen_.reached(chunk, substep, together[at(chunk.body)]));
+        const std::size_t body = at(chunk.body);
+        boxes.push_back(foreseen_.reached(chunk, substep, together[body]).grown(back[body]));
     }
     return boxes;
 }
 
-void CommonMotion::carry(int substep, const std::vector<Vec3>& together) {
+void CommonMotion::carry(int substep, const std::vector<Vec3>& together,
+                         const std::vector<double>& back) {
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         carried_[at(substep) * bodies().size() + b] =
-            to_float4(model_.h * together[b], bodies()[b].led);
+            to_float4(model_.h * together[b], bodies()[b].led + back[b]);
     }
 }
 

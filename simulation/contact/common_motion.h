@@ -15,8 +15,9 @@ namespace weft {
 /// What bodies near each other do together: one translation u for each group of bodies that may
 /// meet in a substep. Contact's planes and balls move with it (kernels/contact/begin.h), so that a
 /// pile that flies, however fast, is to contact a pile at rest. A group with a held vertex has
-/// u = 0, as has one that a convex obstacle may push, and what moves by less than an eighth of the
-/// thickness.
+/// u = 0, as has what moves by less than an eighth of the thickness. Before convex obstacles u ends
+/// where the first of the group comes to one: planes that stayed where they are held back what came
+/// behind it by more than the gap between them.
 ///
 /// The groups of a frame's substeps are foreseen at its start, from the bodies' velocities and
 /// gravity. Different groups have fences that are apart (kernels/contact/fences.h): what leaves its
@@ -55,28 +56,34 @@ public:
 
 private:
     struct Groups {
-        std::vector<int> of;           ///< [bodies] the lowest of its group
-        std::vector<char> is_blocked;  ///< [bodies] by an obstacle
+        std::vector<int> of;            ///< [bodies] the lowest of its group
+        std::vector<char> has_arrived;  ///< [bodies] at an obstacle
     };
 
     const std::vector<ForeseenMotion::Body>& bodies() const { return foreseen_.bodies(); }
     const std::vector<ForeseenMotion::Chunk>& chunks() const { return foreseen_.chunks(); }
     void hold();
     void place_substep(int substep, Groups& known);
-    /// Of bodies in groups: with which the group moves, 0 where it does not, or one is blocked.
+    /// Of bodies in groups: with which the group moves as far as all of it can, 0 where it does
+    /// not. room: [bodies] that obstacles leave [m]
     std::vector<Vec3> common_velocities(int substep, const std::vector<int>& groups,
-                                        const std::vector<char>& is_blocked) const;
+                                        const std::vector<double>& room) const;
     std::vector<Vec3> centres() const;
     std::vector<int> free_groups(const std::vector<IntervalBox>& boxes) const;
-    bool block(int substep, const std::vector<Vec3>& together,
-               const std::vector<IntervalBox>& boxes, std::vector<char>& is_blocked) const;
-    std::vector<IntervalBox> reached(int substep, const std::vector<Vec3>& together) const;
+    bool block(int substep, const std::vector<Vec3>& together, std::vector<double>& room) const;
+    /// That a body would go by itself in a substep [m].
+    double way_of(std::size_t body, int substep) const;
+    std::vector<double> ways_back(int substep, const std::vector<int>& groups,
+                                  const std::vector<Vec3>& together,
+                                  const std::vector<double>& room) const;
+    std::vector<IntervalBox> reached(int substep, const std::vector<Vec3>& together,
+                                     const std::vector<double>& back) const;
     std::vector<char> split_groups(const std::vector<int>& groups,
                                    const std::vector<Vec3>& together) const;
     void build_fences(int substep, const std::vector<char>& is_split,
                       const std::vector<IntervalBox>& boxes);
     void open_fences(int substep);
-    void carry(int substep, const std::vector<Vec3>& together);
+    void carry(int substep, const std::vector<Vec3>& together, const std::vector<double>& back);
 
     const Model& model_;
     double thickness_;

@@ -188,6 +188,11 @@ IntervalBox ForeseenMotion::reached(const Chunk& chunk, int substep, Vec3 togeth
     return box.grown(reach + (substep + 2) * led + margin_ + kSpare * thickness_);
 }
 
+IntervalBox ForeseenMotion::begin_of(const Chunk& chunk, int substep) const {
+    const Vec3 fall = chunk.falls ? fallen_[at(substep)] : Vec3{};
+    return chunk.place + (substep * model_.h) * chunk.velocity + IntervalBox{fall, fall};
+}
+
 /// Ascending by where chunks begin along x.
 void ForeseenMotion::find_neighbours() {
     near_.clear();

@@ -54,6 +54,8 @@ public:
     const std::vector<Pair>& in_the_way() const { return in_the_way_; }
     /// What a chunk and its boxes may reach in a substep, if its group moves with `together`.
     IntervalBox reached(const Chunk& chunk, int substep, Vec3 together) const;
+    /// Where a chunk is when a substep begins, if nothing has met it.
+    IntervalBox begin_of(const Chunk& chunk, int substep) const;
 
 private:
     std::vector<Chunk> make_chunks(const Surface& surface) const;
