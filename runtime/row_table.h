@@ -70,7 +70,8 @@ public:
     std::vector<float> shortages() const;
     /// All entries are zeros again. What reads rows side by side reads beyond the end of short
     /// ones, and takes nothing of what is there; but nothing of what is not a number is not a
-    /// number, and a row without any has what others left in its place.
+    /// number, and a row without any has what others left in its place. (Counts and age stay: who
+    /// keeps entries over substeps has to be told, too.)
     void forget();
     /// How often it has grown.
     int generation() const { return age_[0]; }

@@ -54,8 +54,8 @@ TEST(EnergyAccount, TellsOfWhatIsLiftedByNothing) {
     EXPECT_TRUE(is_told_of(1.0));
 }
 
-/// A sheet and a block, far from each other; whether there is something against either of them, so
-/// much longer and all else at rest.
+/// Of a sheet and a block without contact: whether there is something against them, at rest but so
+/// many times as long as they were.
 bool is_told_of_longer(float sheet, float block) {
     ManualRun run(parse_scene(R"(
 [scene]

@@ -173,8 +173,8 @@ poisson = 0.3
 INSTANTIATE_TEST_SUITE_P(Methods, LoadedPile, kMethods, name_of_method);
 
 /// A block above a sheet, which come to an obstacle by 8 mm per substep. In the one in which the
-/// sheet comes to it, planes between the two stayed where they were, half a gap below the block:
-/// its lower vertices were held back, and its strain had fifty times the energy of the fall.
+/// sheet comes to it, planes between the two stayed where the sheet had been: the block's lower
+/// vertices were held back there, and its strain had a hundred times the energy of the fall.
 TEST_P(LandingTogether, GainsNothing) {
     for (const char* shape : {"shape = \"plane\"\npoint = [0, 0, 0]\n",
                               "shape = \"sphere\"\ncenter = [0, -0.3, 0]\nradius = 0.3\n"}) {
