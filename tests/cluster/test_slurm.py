@@ -25,6 +25,7 @@ key = "{key}"
 values = {values}
 """
 LONG = SHEET.replace("frames = 3", "frames = 150").replace("substeps = 2", "substeps = 200")
+ENDLESS = LONG.replace("frames = 150", "frames = 100000")
 JOB = """#!/bin/bash
 #SBATCH --cpus-per-task=1 --requeue --open-mode=append --output=%x-%a.log
 exec weft batch out/s --index "$SLURM_ARRAY_TASK_ID"
@@ -203,13 +204,15 @@ def threads_of_runs():
 
 
 @pytest.mark.skipif(CORES < 2, reason="needs two cores")
-def test_tasks_keep_to_their_cores(folder):
+def test_tasks_keep_to_their_cores(slurm, folder):
     devices = [d["device"] for d in weft_json("devices")["devices"]]
     if "opencl:0" not in devices:
         pytest.skip("no OpenCL device")
-    make(folder, LONG, "scene.substeps", "[200, 201]", device="opencl:0/1")
+    # Of two that end, the first may be through before the second has begun.
+    make(folder, ENDLESS, "scene.substeps", "[200, 201]", device="opencl:0/1")
     job = submit(folder, "--array=0-1", "job.sh")
-    wait_until(lambda: has_checkpoint(folder, 0) and has_checkpoint(folder, 1), 120)
+    wait_until(lambda: has_checkpoint(folder, 0) and has_checkpoint(folder, 1), 240,
+               lambda: what_slurm_says(slurm, job))
     runs = threads_of_runs()
     subprocess.run(["scancel", job])
     assert len(runs) == 2, runs
