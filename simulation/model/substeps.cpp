@@ -67,6 +67,15 @@ double reach_of_masses(const Gathered& all) {
 }
 
 constexpr double kLongestStep = 1.0 / 240.0;  // [s]
+/// newton's iterations need no shorter ones, but sheets that land on each other do, which only
+/// substeps show where the others have got to (docs/measurements.md, "Sheets that land by newton").
+constexpr double kLongestStepOfSheets = 1.0 / 480.0;
+
+double longest_step(const Scene& scene) {
+    const bool may_land = scene.contact && !scene.cloths.empty();
+    const bool is_newton = scene.solver.method == Method::kNewton;
+    return may_land && is_newton ? kLongestStepOfSheets : kLongestStep;
+}
 
 double rounded(double substeps) {
     constexpr double kRounding = 1e-6;  // 0.016666667 is a sixtieth of a second
@@ -86,7 +95,7 @@ public:
     int chosen() const {
         // Corrections so fine that single precision loses them carry no weight any farther.
         const double strain = std::min(std::max(for_strain(), for_spans()), of_rounding());
-        const double all = std::max({scene_.dt / kLongestStep, strain, for_bending()});
+        const double all = std::max({scene_.dt / longest_step(scene_), strain, for_bending()});
         return static_cast<int>(std::min(rounded(all), kMostSubsteps));
     }
 
