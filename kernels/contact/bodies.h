@@ -196,8 +196,11 @@ WEFT_NARROW_KERNEL(add_pushed_lags, WEFT_GLOBAL const float4* standing,
                     way_of_strain(gather_motion(strains, body_count + 1, other), other_lever));
             const real3 turned = way_of_turn(own.turn, lever);
             const real3 own_way = add(add(own.shift, turned), way_of_strain(own_strain, lever));
-            c = moved_push(c, subtract(own_way, other_way));
-            lever = add(lever, turned);
+            const real3 apart = subtract(own_way, other_way);
+            c = moved_push(c, apart);
+            // Of two free bodies the middle between again, as forces on both may turn nothing.
+            const real inward = opposite < splat_whole(body_count) ? splat(-0.5f) : zero;
+            lever = add_scaled(add(lever, turned), along_surface(apart, c.normal), inward);
             if (is_rubbed) {
                 const bearing other_bearing = gather_bearing(bearings, body_count + 1, other);
                 told =
@@ -336,7 +339,10 @@ WEFT_KERNEL(solve_bodies, WEFT_GLOBAL const float4* lags, WEFT_GLOBAL const int*
     step = add_scaled_motion(add_scaled_motion(no_motion(), step, touching), alone,
                              splat(1.0f) - touching);
     const sym6 form = add_scaled_sym6(sum.outside, own_form, splat(1.0f));
-    const body_motion left = add_scaled_motion(sum.lag, multiply_sym6(form, step), splat(-1.0f));
+    body_motion left = add_scaled_motion(sum.lag, multiply_sym6(form, step), splat(-1.0f));
+    // About where the step leads: forces within a group, which are far larger than what it lacks,
+    // have to turn nothing as its bodies' levers add them up.
+    left.turn = subtract(left.turn, cross3(step.shift, left.shift));
     gone = add_scaled_motion(gone, step, splat(1.0f));
     gone.turn = bounded_turn(gone.turn);
     store_motion(motions, body_count + 1, i, gone);

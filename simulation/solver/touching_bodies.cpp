@@ -19,7 +19,10 @@ constexpr int kLevels = 2;
 constexpr int kRoundsPerLevel = 8;
 /// Before the first iteration, where bodies touch obstacles alone: 12 do no better, and 3 worse.
 constexpr int kFirstRoundsAlone = 6;
-constexpr int kStrainEvery = 3;  ///< rounds, from the first one on
+/// Rounds. In the first ones how bodies are in each other says more of how far they come than of
+/// what presses them, and a strain that makes room for that stays.
+constexpr int kFirstStrain = 3;
+constexpr int kStrainEvery = 2;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -232,15 +235,17 @@ void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskB
     });
     auto weighing = step.add(weigh_, iteration, {0, 1});
     moments_.add_weigh_accesses(weighing);
+    const auto is_strain = [&](int round) {
+        return solids_ && round >= kFirstStrain && (round - kFirstStrain) % kStrainEvery == 0;
+    };
     for (int round = 0; round < count; ++round) {
         // The last round is of whole groups, as only these leave what they have in common exact.
         const std::size_t level = at((count - 1 - round) % level_count());
-        const bool is_strained = solids_ && round % kStrainEvery == 1;
-        const TaskBody& again = is_strained ? strained_sums_[level] : sums_again_[level];
+        const TaskBody& again = is_strain(round - 1) ? strained_sums_[level] : sums_again_[level];
         const TaskBody& sums = round == 0 ? body : again;
         for_each([&](const Region& region) { add_sum(step, sums, region, iteration); });
         add_steps(step, round == 0 ? steps_ : steps_again_[level], iteration);
-        if (!solids_ || round % kStrainEvery != 0) continue;
+        if (!is_strain(round)) continue;
         for_each([&](const Region& region) { add_sum(step, strain_sums_, region, iteration); });
         add_steps(step, strain_steps_, iteration);
     }

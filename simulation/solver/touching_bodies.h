@@ -35,8 +35,8 @@ public:
     Launch move(Model& model, Buffer<float4>& deviations);
 
     /// Whether there is reason to lead them before the first iteration, too: solids that may touch
-    /// others, or convex obstacles.
-    bool may_be_led() const { return solids_ && (body_count() > 1 || resting_); }
+    /// others, or obstacles.
+    bool may_be_led() const { return solids_ && (model_.bodies.size() > 1 || resting_); }
     /// From now on they are (with multipliers sheets, too), by what moves the vertices of a
     /// region's strips behind add_first_rounds(), by so much less far [m]. Behind sum().
     Launch lead(float less);

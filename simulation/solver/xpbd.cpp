@@ -161,7 +161,7 @@ private:
             momentum_->look_at(*model_.positions);
             std::ranges::copy(momentum_->kinds(), std::back_inserter(kinds_));
             lead_ = {"lead", static_cast<int>(kinds_.size()), {}};
-            if (momentum_->resting()) momentum_->add_lead(lead_.launches, fall());
+            momentum_->add_lead(lead_.launches, fall());
             if (!lead_.launches.empty()) kinds_.push_back(lead_.name);
         } else {
             momentum_.reset();
