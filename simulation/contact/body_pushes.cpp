@@ -1,6 +1,7 @@
 #include "simulation/contact/body_pushes.h"
 
 #include "kernels/contact/bodies.h"
+#include "kernels/contact/stops.h"
 
 namespace weft {
 
@@ -51,6 +52,15 @@ Launch BodyPushes::collect_resting(const Resting& r) {
                   columns_.members, columns_.shares, columns_.rows, table_.rows(), table_.counts(),
                   table_.needs(), codes_, sides_, slips_, forces_, points_, other_points_, presses_,
                   columns_.count, r.body_count, r.obstacle_count, r.reach, 1.0f / h2_, kInstance);
+}
+
+Launch BodyPushes::collect_stops(const Stops& s) {
+    return launch(kernels::collect_stops, columns_.by_strip, s.positions, s.targets, s.anchors,
+                  s.least, s.planes_of.rows(), s.planes_of.counts(), s.planes, s.hardness,
+                  s.scene_bodies, s.borne, columns_.members, columns_.shares, columns_.rows,
+                  table_.rows(), table_.counts(), table_.needs(), codes_, sides_, slips_, forces_,
+                  points_, other_points_, presses_, columns_.count, s.body_count,
+                  s.scene_body_count, s.soft, kInstance);
 }
 
 void BodyPushes::add_collect_accesses(Step::Adding& task, const Region& region, int first,

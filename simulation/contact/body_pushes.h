@@ -40,6 +40,22 @@ public:
     /// Behind collect(), adds the vertices that are near convex obstacles.
     Launch collect_resting(const Resting& resting);
 
+    /// What collect_stops takes besides (kernels/contact/stops.h); all but the last three are its
+    /// buffers.
+    struct Stops {
+        Buffer<float4>&positions, &targets, &anchors;
+        Buffer<float>& least;
+        RowTable& planes_of;
+        Buffer<float4>& planes;
+        Buffer<float>& hardness;
+        Buffer<int>& scene_bodies;
+        Buffer<float>& borne;
+        int body_count, scene_body_count;
+        float soft;
+    };
+    /// Behind collect(), adds the vertices that inertia leads through planes.
+    Launch collect_stops(const Stops& stops);
+
     /// The parameters of a round, as the kernel's.
     struct Round {
         int is_rubbed = 0, has_moved = 0, is_strained = 0, is_strain = 0, level = 0;

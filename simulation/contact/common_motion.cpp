@@ -37,7 +37,8 @@ CommonMotion::CommonMotion(const Model& model, const Surface& surface, double th
       strays_("contact.strays", chunk_of_.count()),
       unquiet_("contact.unquiet", model.positions->count()),
       carried_("contact.carried", at(substeps_) * bodies().size()),
-      fences_("contact.fences", at(substeps_) * 2 * std::max(chunks().size(), std::size_t{1})) {
+      fences_("contact.fences", at(substeps_) * 2 * std::max(chunks().size(), std::size_t{1})),
+      borne_("contact.borne", carried_.count()) {
     std::ranges::copy(foreseen_.body_of(), body_of_.data());
     std::ranges::copy(foreseen_.chunk_of(), chunk_of_.data());
 }
@@ -46,14 +47,17 @@ CommonMotion::CommonMotion(const Model& model, const Surface& surface, double th
 void CommonMotion::hold() {
     foreseen_.lead_alike();
     const std::vector<Vec3> nothing(bodies().size());
+    const std::vector<int> one(bodies().size());
+    const std::vector<double> room(bodies().size(), foreseen_.in_the_way().empty() ? kAll : 0.0);
     for (int substep = 0; substep < substeps_; ++substep) {
         carry(substep, nothing, std::vector<double>(bodies().size()));
         open_fences(substep);
+        find_borne(substep, one, room);
     }
 }
 
 std::vector<BufferStorage*> CommonMotion::placed_buffers() {
-    std::vector<BufferStorage*> buffers{&carried_, &fences_, &foresees_};
+    std::vector<BufferStorage*> buffers{&carried_, &fences_, &borne_, &foresees_};
     if (!grouped_) return buffers;
     for (BufferStorage* buffer : grouped_->buffers()) buffers.push_back(buffer);
     return buffers;
@@ -98,6 +102,7 @@ void CommonMotion::place_substep(int substep, Groups& known) {
         }
     }
     carry(substep, together, back);
+    find_borne(substep, groups, room);
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         if (room[b] < way_of(b, substep)) has_arrived[b] = 1;
     }
@@ -207,6 +212,18 @@ void CommonMotion::carry(int substep, const std::vector<Vec3>& together,
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         carried_[at(substep) * bodies().size() + b] =
             to_float4(model_.h * together[b], bodies()[b].led + back[b]);
+    }
+}
+
+/// Groups of which something is held, or comes to an obstacle.
+void CommonMotion::find_borne(int substep, const std::vector<int>& groups,
+                              const std::vector<double>& room) {
+    std::vector<float> is_borne(bodies().size());
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        if (bodies()[b].is_held || room[b] < way_of(b, substep)) is_borne[at(groups[b])] = 1.0f;
+    }
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        borne_[at(substep) * bodies().size() + b] = is_borne[at(groups[b])];
     }
 }
 

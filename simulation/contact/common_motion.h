@@ -49,6 +49,7 @@ public:
     int chunk_count() const { return static_cast<int>(chunks().size()); }
     Buffer<int>& body_of() { return body_of_; }     ///< [model vertices]
     Buffer<float4>& carried() { return carried_; }  ///< [substeps * bodies] see begin.h
+    Buffer<float>& borne() { return borne_; }       ///< [substeps * bodies] see stops.h
     Buffer<int>& chunk_of() { return chunk_of_; }   ///< [patches]
     Buffer<float4>& fences() { return fences_; }    ///< [substeps * 2 * chunks] see fences.h
     Buffer<int>& strays() { return strays_; }       ///< [patches] written by the devices
@@ -84,6 +85,7 @@ private:
                       const std::vector<IntervalBox>& boxes);
     void open_fences(int substep);
     void carry(int substep, const std::vector<Vec3>& together, const std::vector<double>& back);
+    void find_borne(int substep, const std::vector<int>& groups, const std::vector<double>& room);
 
     const Model& model_;
     double thickness_;
@@ -92,6 +94,7 @@ private:
     Buffer<int>& foresees_;
     Buffer<int> body_of_, chunk_of_, strays_, unquiet_;
     Buffer<float4> carried_, fences_;
+    Buffer<float> borne_;
     std::unique_ptr<BodyGroups> grouped_;  ///< null: nobody asked for groups
 };
 

@@ -96,6 +96,7 @@ public:
     /// What there was to do in a frame of which the host has the account.
     ContactRecord record();
 
+    ContactTruncation& truncation() { return truncation_; }
     /// [strips] where nothing but balls holds vertices: 1; else 0.
     Buffer<int>& apart() { return truncation_.apart(); }
     /// [vertices] whom the last truncation took back: not 0.

@@ -53,15 +53,19 @@ void ContactTruncation::add(std::vector<Launch>& launches, Buffer<float4>& posit
 }
 
 void ContactTruncation::add_accesses(Step::Adding& task, StripRange strips) {
-    const int first = model_.vertices().item(strips.begin);
-    const int last = model_.vertices().item(strips.end);
+    add_reads(task, strips);
     task.reads(touching_, strips.begin, strips.end)
         .reads(apart_, strips.begin, strips.end)
-        .reads(anchors_, first, last)
+        .updates(cut_, model_.vertices().item(strips.begin), model_.vertices().item(strips.end));
+}
+
+void ContactTruncation::add_reads(Step::Adding& task, StripRange strips) {
+    const int first = model_.vertices().item(strips.begin);
+    const int last = model_.vertices().item(strips.end);
+    task.reads(anchors_, first, last)
         .reads(least_, first, last)
         .reads(table_.counts(), first, last)
-        .reads(planes_, table_.entries())
-        .updates(cut_, first, last);
+        .reads(planes_, table_.entries());
 }
 
 }  // namespace weft

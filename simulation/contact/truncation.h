@@ -26,12 +26,16 @@ public:
     void add(std::vector<Launch>& launches, Buffer<float4>& positions, int all_from);
     /// What both need of their own strips. Of scenes without planes nobody asks.
     void add_accesses(Step::Adding& task, StripRange strips);
+    /// What reading a strip's planes takes.
+    void add_reads(Step::Adding& task, StripRange strips);
 
     /// That are written by who finds them: a row of planes per vertex,
     RowTable& table() { return table_; }
     Buffer<float4>& planes() { return planes_; }
     /// [vertices] how far each is from them [m]; WEFT_NO_PLANE where it has no pairs,
     Buffer<float>& least() { return least_; }
+    /// [vertices] where contacts were looked for, and how far each may go from there [m].
+    Buffer<float4>& anchors() { return anchors_; }
     /// [strips] where nothing but balls holds vertices: 1; else 0.
     Buffer<int>& apart() { return apart_; }
     /// [vertices] whom the last truncation took back: not 0.

@@ -70,6 +70,7 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
     : model_(model),
       bodies_(bodies),
       resting_(std::move(resting)),
+      stops_(BodyStops::of(model, bodies, contact)),
       held_(held),
       has_multipliers_(multipliers != nullptr),
       is_rubbed_(rubbing_of(model).friction > 0 ||
@@ -185,6 +186,7 @@ std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
         std::ranges::move(solids_->sum(positions, moments_.sums().origins()),
                           std::back_inserter(launches));
     launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
+    if (stops_) launches.push_back(stops_->collect(pushes_, positions, *targets_, body_count()));
     if (resting_)
         launches.push_back(resting_->collect(pushes_, positions, *obstacles_.starts, body_count()));
     return launches;
@@ -261,6 +263,7 @@ void TouchingBodies::add_collection(Step& step, const TaskBody& body, const Regi
     pushes_.add_collect_accesses(task, region, first, last);
     moments_.sums().add_sum_accesses(task, region, starts());
     if (solids_) solids_->add_sum_accesses(task, region);
+    if (stops_) stops_->add_collect_accesses(task, region.strips());
     if (resting_) resting_->add_collect_accesses(task, obstacles_, first, last);
 }
 

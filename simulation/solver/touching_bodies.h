@@ -6,6 +6,7 @@
 #include "simulation/contact/body_pushes.h"
 #include "simulation/contact/response.h"
 #include "simulation/solver/body_moments.h"
+#include "simulation/solver/body_stops.h"
 #include "simulation/solver/body_strains.h"
 #include "simulation/solver/free_bodies.h"
 #include "simulation/solver/resting_bodies.h"
@@ -81,6 +82,7 @@ private:
     Model& model_;
     FreeBodies& bodies_;
     std::unique_ptr<RestingBodies> resting_;  ///< null: see resting()
+    std::unique_ptr<BodyStops> stops_;        ///< null: nobody stops as a whole
     float held_;
     bool has_multipliers_;
     int is_rubbed_;  ///< 1 with friction

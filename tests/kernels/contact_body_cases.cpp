@@ -1,5 +1,6 @@
 #include "kernels/contact/groups.h"
 #include "kernels/contact/pushes.h"
+#include "kernels/contact/stops.h"
 #include "kernels/contact/strains.h"
 #include "tests/kernels/contact_response_parts.h"
 
@@ -287,6 +288,27 @@ void move_case(KernelCase& c) {
                       strains, moments, are_led, bodies, 240.0f, kBodies);
 }
 
+/// Of solids' vertices and of others, in groups that give way and in others.
+void stops_case(KernelCase& c) {
+    auto& positions = add_points(c, "positions", c.items);
+    auto& targets = add_points(c, "targets", c.items);
+    auto& anchors = add_points(c, "anchors", c.items);
+    const Planes planes(c);
+    auto& hardness = c.add<float>("hardness", c.items);
+    for (float& k : hardness.span()) k = std::max(c.random.real(-1e3f, 1e4f), 0.0f);
+    auto& scene_bodies = add_indices(c, "scene_bodies", c.items, kBodies);
+    auto& borne = add_flags(c, "borne", kBodies * kSubsteps);
+    Columns columns(c);
+    Pushes pushes(c);
+    auto& needs = add_indices(c, "push_needs", c.items, 9);
+    c.launch =
+        launch(kernels::collect_stops, c.segments, positions, targets, anchors, planes.least,
+               planes.rows, planes.counts, planes.all, hardness, scene_bodies, borne,
+               columns.members, columns.shares, columns.rows, pushes.rows.rows, pushes.rows.counts,
+               needs, pushes.codes, pushes.sides, pushes.slips, pushes.forces, pushes.points,
+               pushes.other_points, pushes.presses, c.items, kBodies, kBodies, 0.02f, kInstance);
+}
+
 void lead_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& motions = add_points(c, "motions", 2 * (kBodies + 1));
@@ -300,11 +322,12 @@ void lead_case(KernelCase& c) {
 
 const bool added =
     add_case("collect_pushes", collect_case) && add_case("collect_no_pushes", collect_none_case) &&
-    add_case("add_pushed_lags", lags_case) && add_case("solve_bodies", bodies_case) &&
-    add_case("solve_groups", groups_case) && add_case("add_groups", add_groups_case) &&
-    add_case("add_moments", moments_case) && add_case("weigh_bodies", weigh_case) &&
-    add_case("move_bodies", move_case) && add_case("lead_bodies", lead_case) &&
-    add_case("solve_strains", strains_case) && add_case("add_virials", virials_case);
+    add_case("collect_stops", stops_case) && add_case("add_pushed_lags", lags_case) &&
+    add_case("solve_bodies", bodies_case) && add_case("solve_groups", groups_case) &&
+    add_case("add_groups", add_groups_case) && add_case("add_moments", moments_case) &&
+    add_case("weigh_bodies", weigh_case) && add_case("move_bodies", move_case) &&
+    add_case("lead_bodies", lead_case) && add_case("solve_strains", strains_case) &&
+    add_case("add_virials", virials_case);
 
 }  // namespace
 }  // namespace weft::test

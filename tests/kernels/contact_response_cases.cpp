@@ -76,20 +76,10 @@ void truncate_case(KernelCase& c) {
     auto& positions = add_points(c, "positions", c.items);
     auto& anchors = add_points(c, "anchors", c.items);
     for (float4& a : anchors.span()) a.w = c.random.real(0.0f, 2.0f * kSize);
-    auto& least = c.add<float>("least", c.items);
-    const float lowest = c.flavour == Flavour::kRandom ? 0.0f : -0.1f;
-    Rows planes(c, "planes", c.items, kRoom);
-    auto& entries = add_normals(c, "planes", planes.entries, lowest, 0.2f);
-    for (int v = 0; v < c.items; ++v) {
-        least[at(v)] = 1e30f;
-        for (int k = 0; k < planes.counts[at(v)]; ++k) {
-            const float4& plane = entries[at(planes.rows[at(v)] + RowTable::kStride * k)];
-            least[at(v)] = std::min(least[at(v)], plane.w);
-        }
-    }
+    const Planes planes(c);
     auto& cut = c.add<int>("cut", c.items);
-    c.launch = launch(kernels::truncate_contacts, c.segments, positions, anchors, least,
-                      planes.rows, planes.counts, entries, cut, 0.02f, 0.005f, kIteration,
+    c.launch = launch(kernels::truncate_contacts, c.segments, positions, anchors, planes.least,
+                      planes.rows, planes.counts, planes.all, cut, 0.02f, 0.005f, kIteration,
                       c.flavour == Flavour::kRandom ? 0 : 1);
 }
 

@@ -64,6 +64,26 @@ inline Buffer<float4>& add_normals(KernelCase& c, const std::string& name, int c
     return normals;
 }
 
+/// Rows of planes before vertices, and how far each is from the nearest one.
+struct Planes : Rows {
+    Buffer<float4>& all;
+    Buffer<float>& least;
+
+    explicit Planes(KernelCase& c)
+        : Rows(c, "planes", c.items, kRoom),
+          all(add_normals(c, "planes", entries, c.flavour == Flavour::kRandom ? 0.0f : -0.1f,
+                          0.2f)),
+          least(c.add<float>("least", c.items)) {
+        for (int v = 0; v < c.items; ++v) {
+            least[at(v)] = 1e30f;
+            for (int k = 0; k < counts[at(v)]; ++k) {
+                const float4& plane = all[at(rows[at(v)] + RowTable::kStride * k)];
+                least[at(v)] = std::min(least[at(v)], plane.w);
+            }
+        }
+    }
+};
+
 struct Contacts {
     Rows rows;
     Buffer<int>&corner0, &corner1, &corner2, &corner3;
