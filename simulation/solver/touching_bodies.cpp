@@ -13,16 +13,22 @@ namespace weft {
 namespace {
 
 constexpr int kRounds = 12;
+constexpr int kRoundsOfSolids = 18;  ///< where they may touch others
 /// More for each level of groups beyond the usual two, where there are sheets: solids, which are
 /// led before the first iteration, too, have twice as many anyway.
 constexpr int kLevels = 2;
 constexpr int kRoundsPerLevel = 8;
 /// Before the first iteration, where bodies touch obstacles alone: 12 do no better, and 3 worse.
 constexpr int kFirstRoundsAlone = 6;
-/// Rounds. In the first ones how bodies are in each other says more of how far they come than of
-/// what presses them, and a strain that makes room for that stays.
-constexpr int kFirstStrain = 3;
-constexpr int kStrainEvery = 2;
+/// The rounds in which solids give way. Where they may touch others, none of the first ones: how
+/// bodies are in each other says more there of how far they come than of what presses them, and a
+/// strain that makes room for that stays.
+struct Strains {
+    int first, every;
+    bool is_in(int round) const { return round >= first && (round - first) % every == 0; }
+};
+constexpr Strains kStrainsAlone{0, 3};
+constexpr Strains kStrainsTogether{7, 2};
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -201,7 +207,8 @@ std::vector<Launch> TouchingBodies::sum_round(const BodyPushes::Round& round) {
 
 void TouchingBodies::add_first_rounds(Step& step, const TaskBody& body,
                                       const std::vector<Region>& regions) {
-    const int rounds = groups_ ? kRounds : kFirstRoundsAlone;
+    const int together = may_touch_others() ? kRoundsOfSolids : kRounds;
+    const int rounds = groups_ ? together : kFirstRoundsAlone;
     add_all(step, first_collect_, body, regions, *model_.positions, {rounds, 0});
 }
 
@@ -220,7 +227,8 @@ int TouchingBodies::round_count() const {
     while (body < body_count() && is_solid(body)) ++body;
     const bool has_sheets = body < body_count();
     const int more = has_sheets ? std::max(level_count() - kLevels, 0) : 0;
-    return kRounds + kRoundsPerLevel * more;
+    const int fewest = solids_ && may_touch_others() ? kRoundsOfSolids : kRounds;
+    return fewest + kRoundsPerLevel * more;
 }
 
 void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskBody& body,
@@ -238,7 +246,7 @@ void TouchingBodies::add_all(Step& step, const TaskBody& collection, const TaskB
     auto weighing = step.add(weigh_, iteration, {0, 1});
     moments_.add_weigh_accesses(weighing);
     const auto is_strain = [&](int round) {
-        return solids_ && round >= kFirstStrain && (round - kFirstStrain) % kStrainEvery == 0;
+        return solids_ && (may_touch_others() ? kStrainsTogether : kStrainsAlone).is_in(round);
     };
     for (int round = 0; round < count; ++round) {
         // The last round is of whole groups, as only these leave what they have in common exact.

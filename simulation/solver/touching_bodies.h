@@ -37,7 +37,7 @@ public:
 
     /// Whether there is reason to lead them before the first iteration, too: solids that may touch
     /// others, or obstacles.
-    bool may_be_led() const { return solids_ && (model_.bodies.size() > 1 || resting_); }
+    bool may_be_led() const { return solids_ && (may_touch_others() || resting_); }
     /// From now on they are (with multipliers sheets, too), by what moves the vertices of a
     /// region's strips behind add_first_rounds(), by so much less far [m]. Behind sum().
     Launch lead(float less);
@@ -76,6 +76,8 @@ private:
     int body_count() const { return bodies_.body_count(); }
     int level_count() const { return groups_ ? groups_->level_count() : 1; }
     bool is_solid(int body) const;
+    /// Bodies, or obstacles that are meshes.
+    bool may_touch_others() const { return groups_ && model_.bodies.size() > 1; }
     /// Behind the last iteration.
     int round_count() const;
 

@@ -150,8 +150,8 @@ public:
 
 private:
     /// Projections keep momentum, but what planes take back is lost, and a few iterations let stiff
-    /// bodies sink into what bears them. And solids that land are led out of obstacles as wholes
-    /// before the first iteration; without contact that is all.
+    /// bodies sink into what bears them. And solids that land on obstacles or others are led out of
+    /// these as wholes before the first iteration; without contact that is all.
     void find_bodies() {
         targets_ = std::make_unique<Buffer<float4>>("targets", model_.positions->count());
         momentum_ = std::make_unique<BodyMomentum>(
@@ -415,7 +415,7 @@ private:
     std::unique_ptr<BodyMomentum> momentum_;         ///< likewise
     std::unique_ptr<NarrowTask> narrow_;             ///< null: no narrow obstacles
     TaskBody predict_, velocities_;
-    TaskBody lead_;  ///< empty: no solids that may land on obstacles
+    TaskBody lead_;  ///< empty: no solids that may land on something
     bool has_rounds_ = contact_ && !has_moving_solids(model_);
     TaskBody push_;               ///< empty: no contact
     TaskBody show_, push_again_;  ///< behind the last iteration; empty: no rounds there
