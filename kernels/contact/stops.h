@@ -3,9 +3,9 @@
 
 // Solids that come fast at what does not give way: within a substep they would go through the
 // planes of truncation.h, which take back single vertices. Of a stiff block the lowest ones stood
-// there while the rest came on, with ten times the energy of its fall. So to the rounds of bodies.h
-// such a plane is hard, as convex obstacles are (resting.h), and the solid stops as a whole. Who
-// does not come that fast has no such entries.
+// there while the rest came on, with hundreds of times the energy of its fall. So to the rounds of
+// bodies.h such a plane is hard, as convex obstacles are (resting.h), and the solid stops as a
+// whole. Who does not come that fast has no such entries.
 //
 // A plane gives no momentum to what is behind it, so that is for groups of which something is held,
 // or lies on an obstacle: others' planes move with them (begin.h).

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kHeld = 1e30;
 
+/// What is hard has at least so many m / h^2. Many make rounds slow to settle, and few let a solid
+/// sink, until the iterations push it out again.
+constexpr double kHardness = 100.0;
+
 void add_elements(const ElementFamily& family, std::span<const float4> positions,
                   std::vector<double>& sums) {
     for (int e = 0; e < family.count(); ++e) {
@@ -34,6 +38,15 @@ std::vector<float> contact_stiffness(const Model& model) {
     std::vector<float> stiffness(sums.size());
     for (std::size_t v = 0; v < sums.size(); ++v) {
         stiffness[v] = static_cast<float>(positions[v].w > 0.0f ? sums[v] : kHeld);
+    }
+    return stiffness;
+}
+
+std::vector<float> hard_stiffness(const Model& model) {
+    std::vector<float> stiffness = contact_stiffness(model);
+    for (std::size_t v = 0; v < stiffness.size(); ++v) {
+        const double inertia = model.masses[v] / (model.h * model.h);
+        stiffness[v] += static_cast<float>(kHardness * inertia);
     }
     return stiffness;
 }

@@ -12,6 +12,9 @@ namespace weft {
 /// and stiffnesses in one proportion behave alike. Held vertices have more than any other.
 std::vector<float> contact_stiffness(const Model& model);
 
+/// That, and so much more that to bodies as wholes what presses a vertex with it is hard [N/m].
+std::vector<float> hard_stiffness(const Model& model);
+
 /// The vertices where they are now [m].
 std::vector<Vec3> rest_of(const Model& model);
 /// All triangles of a model as a surface's.

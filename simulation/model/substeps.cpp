@@ -67,8 +67,8 @@ double reach_of_masses(const Gathered& all) {
 }
 
 constexpr double kLongestStep = 1.0 / 240.0;  // [s]
-/// newton's iterations need no shorter ones, but sheets that land on each other do, which only
-/// substeps show where the others have got to (docs/measurements.md, "Sheets that land by newton").
+/// newton's iterations need no shorter ones, but sheets that land on each other were in each other
+/// for a frame (docs/measurements.md, "Sheets that land by newton").
 constexpr double kLongestStepOfSheets = 1.0 / 480.0;
 
 double longest_step(const Scene& scene) {

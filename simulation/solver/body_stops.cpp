@@ -1,15 +1,10 @@
 #include "simulation/solver/body_stops.h"
 
+#include <algorithm>
+
 #include "simulation/contact/stiffness.h"
 
 namespace weft {
-
-namespace {
-
-/// k of a vertex has at least so many m / h^2, as before convex obstacles (resting_bodies.cpp).
-constexpr double kHardness = 100.0;
-
-}  // namespace
 
 std::unique_ptr<BodyStops> BodyStops::of(const Model& model, const FreeBodies& bodies,
                                          ContactResponse* contact) {
@@ -19,15 +14,12 @@ std::unique_ptr<BodyStops> BodyStops::of(const Model& model, const FreeBodies& b
 
 BodyStops::BodyStops(const Model& model, const FreeBodies& bodies, ContactResponse& contact)
     : contact_(contact), hardness_("stops.hardness", model.positions->count()) {
-    const std::vector<float> stiffness = contact_stiffness(model);
+    const std::vector<float> hard = hard_stiffness(model);
     for (int r = 0; r < bodies.run_count(); ++r) {
         const FreeBodies::Run& run = bodies.run(r);
-        if (!run.is_solid) continue;
-        for (int v = run.begin; v < run.end; ++v) {
-            const auto vertex = static_cast<std::size_t>(v);
-            const double inertia = model.masses[vertex] / (model.h * model.h);
-            hardness_[vertex] = stiffness[vertex] + static_cast<float>(kHardness * inertia);
-        }
+        if (run.is_solid)
+            std::copy(hard.begin() + run.begin, hard.begin() + run.end,
+                      hardness_.data() + run.begin);
     }
 }
 

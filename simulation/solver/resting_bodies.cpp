@@ -11,10 +11,6 @@ namespace weft {
 
 namespace {
 
-/// k of a vertex has at least so many m / h^2. Many make rounds slow to settle, and few let a solid
-/// sink, until the iterations push it out again.
-constexpr double kHardness = 100.0;
-
 /// What is farther from obstacles than surfaces that touch each other would be is not near [m].
 double reach_of_obstacles(const Model& model) {
     if (model.scene.contact) return model.scene.contact->thickness;
@@ -49,11 +45,7 @@ RestingBodies::RestingBodies(Model& model, const FreeBodies& bodies, double cree
         if (is_borne) std::fill(borne_.data() + run.begin, borne_.data() + run.end, 1.0f);
         if (run.is_solid) std::fill(solid_.data() + run.begin, solid_.data() + run.end, 1.0f);
     }
-    const std::vector<float> stiffness = contact_stiffness(model);
-    for (std::size_t v = 0; v < stiffness.size(); ++v) {
-        const double inertia = model.masses[v] / (model.h * model.h);
-        hardness_[v] = stiffness[v] + static_cast<float>(kHardness * inertia);
-    }
+    std::ranges::copy(hard_stiffness(model), hardness_.data());
 }
 
 Launch RestingBodies::see(Buffer<float4>& targets, const ObstaclePushes& obstacles) {

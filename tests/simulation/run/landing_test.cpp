@@ -252,8 +252,8 @@ poisson = 0.4
 }
 
 /// A lone block was not led out of a mesh before the first iteration, as it was out of convex
-/// obstacles: it stored six times the energy of its fall. Two gave way to each other in the first
-/// round, when they were still in each other, and kept that strain.
+/// obstacles: it stored several times the energy of its fall. Two gave way to each other in the
+/// first round, when they were still in each other, and kept that strain.
 TEST_P(LandingOnMesh, GainsLittle) {
     const std::string floor = R"(
 [[obstacle]]
@@ -270,7 +270,7 @@ grid = { size = [2, 2], resolution = [12, 12] }
 INSTANTIATE_TEST_SUITE_P(Methods, LandingOnMesh, kMethods, name_of_method);
 
 /// The step that bodies take in common took what they do to each other, far more than they lack,
-/// at levers of another moment, and turned them by that: up to 1e5 J.
+/// at levers of another moment, and turned them by that: up to 4e4 J.
 TEST_P(LandingTower, DoesNotExplode) {
     const std::string floor = R"(
 [[obstacle]]
@@ -278,7 +278,7 @@ shape = "plane"
 point = [0, 0, 0]
 )";
     const Account account = run_of(tower_of(4) + floor, 24);
-    EXPECT_LT(account.gained, 10.0 * account.fallen);
+    EXPECT_LT(account.gained, 0.1 * account.fallen);
     EXPECT_GT(account.fallen, 0.5);
 }
 
