@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -7,7 +8,8 @@
 
 namespace weft {
 
-/// Which positions the elements of a range of vertices read.
+/// Which positions the elements of a range of vertices read. Ranges begin and end where strips or
+/// seams do.
 class Halo {
 public:
     explicit Halo(const Model& model);
@@ -16,7 +18,10 @@ public:
     std::pair<int, int> around(int begin, int end) const;
 
 private:
-    std::vector<int> lowest_, highest_;  ///< [vertices] that share an element with it
+    std::size_t piece(int vertex) const;
+
+    std::vector<int> borders_;           ///< [pieces + 1] of strips and of seams, ascending
+    std::vector<int> lowest_, highest_;  ///< [pieces] that share an element with one of it
 };
 
 }  // namespace weft
