@@ -9,12 +9,20 @@
 // before the first iteration and behind the last one, and in rounds obstacles are contacts like any
 // other. An entry of a body's row is a vertex that is near one. It presses by
 //
-//   max(0, known - k gap)
+//   max(0, known + e - k gap)
 //
 // where `known` is what the obstacle is known to bear there (bodies/reactions.h), none before the
 // first iteration; the body lacks that no more, so what counts is how much more or less it gets.
-// It rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h), and
-// as hard as what bears the body says (bearings.h).
+// e is the force by which a solid's elements press the vertex against the obstacle, which bears
+// that, too: a corner that has met the ground stops, and only e says that the body goes on and
+// crushes it. k is about how hard the elements resist there, so e - k gap is what there will be
+// when the body has moved by so much. Behind iterations that descend it is among what is known, as
+// they pull the vertex back into the obstacle by it each time; projections do not tell. A block of
+// 1e7 Pa that xpbd dropped by 10 cm stored 20 times the energy of its fall without that
+// (docs/measurements.md, "Solids that fall on their corners").
+//
+// An entry rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h),
+// and as hard as what bears the body says (bearings.h).
 //
 // Cloth in contact lies on obstacles likewise. Where a sheet comes to lie on another one, a round
 // that knows of their contact alone leads the lower one into what bears it by as much as the upper
@@ -80,21 +88,25 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
 /// borne        [vertices] 1: of a body that lies on obstacles as a whole; else 0
 /// solid        [vertices] as in see_targets: what obstacles rub
 /// hardness     [vertices] k [N/m]
+/// gradients    [3 * vertex_count] column-major: of the elements' energy [N]; not read without
+///              has_gradients, where e is 0
 /// push_rows to presses  as collect_pushes leaves them; here of other_points w: what is known [N]
-/// reach        [m] what is farther away has no entry
+/// reach        [m] what is farther away has no entry, unless it may come so far: twice as far as it
+///              has gone, where its body is turned
 /// inverse_h2, instance  as in collect_pushes
 WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const float4* seen_targets,
                    WEFT_GLOBAL const float4* starts, WEFT_GLOBAL const float4* kept,
                    WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float* borne,
                    WEFT_GLOBAL const float* solid, WEFT_GLOBAL const float* hardness,
-                   WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
-                   WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* push_rows,
-                   WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs,
-                   WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
-                   WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
-                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float* presses, int column_count,
-                   int body_count, int obstacle_count, float reach, float inverse_h2,
+                   WEFT_GLOBAL const float* gradients, WEFT_GLOBAL const int* members,
+                   WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* column_rows,
+                   WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
+                   WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
+                   WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
+                   WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
+                   WEFT_GLOBAL float* presses, int column_count, int vertex_count, int body_count,
+                   int obstacle_count, float reach, float inverse_h2, int has_gradients,
                    int instance) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
@@ -110,27 +122,35 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
         if (!any_item(counts > zero)) continue;
         const real3 before = xyz(gather4(previous, vertex));
         const real3 earlier = xyz(gather4(kept, vertex));
+        const real way_gone = length3(subtract(xyz(x), before));
+        const real near_enough = splat(reach) + splat(2.0f) * way_gone;
+        const real hard = gather(hardness, vertex);
+        const real is_solid = gather(solid, vertex);
+        real3 gradient = make3(zero, zero, zero);
+        if (has_gradients) gradient = gather_gradient(gradients, vertex, vertex_count);
         real3 led = subtract(xyz(gather4(seen_targets, vertex)), xyz(gather4(starts, vertex)));
         for (int number = 0; number < obstacle_count; ++number) {
             WEFT_GLOBAL const float4* o =
                 obstacles + WEFT_OBSTACLE_ROWS * (instance * obstacle_count + number);
             const nearness near = seen_from(o, before, xyz(x));
             const real gap = near.distance - splat(o[7].x);
-            const mask is_near = both(counts > zero, gap < splat(reach));
+            const mask is_near = both(counts > zero, gap < near_enough);
             if (!any_item(is_near)) continue;
             // Of several that are known to push as one, the first ones push.
             const real3 normal = apply_back(o, near.normal);
             const real way = is_near ? larger(dot3(led, normal), zero) : zero;
             led = add_scaled(led, normal, -way);
             const real known = way * splat(inverse_h2) / (is_near ? x.w : one);
+            const real pressed =
+                larger(dot3(gradient, normal), zero) * is_solid / (is_near ? hard : one);
             const real3 slid = slid_along(o, xyz(x), before, normal);
             const real3 slip = add(slid, along_surface(earlier, normal));
             const mask fits = both(is_near, found < room);
             const integer place = address(push_start + found * WEFT_ROW_STRIDE);
-            const real4 force = {one, one, gather(hardness, vertex), one};
-            const real friction = splat(o[7].y) * gather(solid, vertex);
+            const real4 force = {one, one, hard, one};
+            const real friction = splat(o[7].y) * is_solid;
             scatter_whole_where(fits, codes, place, code_of_body(splat_whole(body_count)));
-            scatter4_where(fits, sides, place, with_w(normal, gap));
+            scatter4_where(fits, sides, place, with_w(normal, gap - pressed));
             scatter4_where(fits, slips, place, with_w(slip, one));
             scatter4_where(fits, forces, place, force);
             scatter4_where(fits, points, place, with_w(xyz(x), friction));

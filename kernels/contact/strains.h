@@ -59,8 +59,7 @@ WEFT_KERNEL(add_virials, WEFT_GLOBAL const float4* positions, WEFT_GLOBAL const 
         const item entry = {rows[2 * i.first] + WEFT_RUN_COLUMNS * k, i.count};
         const integer v = load_index(members, entry);
         const real3 r = subtract(xyz(gather4(positions, v)), origin);
-        const real3 gradient = make3(gather(gradients, v), gather(gradients + vertex_count, v),
-                                     gather(gradients + 2 * vertex_count, v));
+        const real3 gradient = gather_gradient(gradients, v, vertex_count);
         const real own = load(shares, entry) > splat(0.0f) ? splat(1.0f) : splat(0.0f);
         sum = add_scaled_motion(sum, strain_part(outer_mat(r, gradient)), own);
     }

@@ -9,6 +9,7 @@
 // k, and the items of a pack are neighbours in memory. All rows of a pack are as long as its
 // longest one; short ones end with entries that contribute nothing.
 
+#include "kernels/lanes.h"
 #include "kernels/matrix.h"
 #include "kernels/platform.h"
 #include "kernels/vector.h"
@@ -69,6 +70,12 @@ WEFT_INLINE void store_derivatives(WEFT_GLOBAL float* sums, item i, int items, d
 
 WEFT_INLINE real3 load_gradient(WEFT_GLOBAL const float* sums, item i, int items) {
     return make3(load(sums, i), load(sums, column(i, items, 1)), load(sums, column(i, items, 2)));
+}
+
+/// Of any vertex, where items are vertices.
+WEFT_INLINE real3 gather_gradient(WEFT_GLOBAL const float* sums, integer vertex, int items) {
+    return make3(gather(sums, vertex), gather(sums + items, vertex),
+                 gather(sums + 2 * items, vertex));
 }
 
 WEFT_INLINE void store_gradient(WEFT_GLOBAL float* sums, item i, int items, real3 gradient) {

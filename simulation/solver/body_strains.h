@@ -25,6 +25,8 @@ public:
 
     /// [2 * lag_count] of the runs; [2 * bodies]: see solve_strains
     Buffer<float4>& virials() { return virials_; }
+    /// [3 * vertices] of the elements' energy, behind sum()
+    Buffer<float>& gradients() { return derivatives_.sums(); }
     Buffer<float>& stiffness() { return stiffness_; }
     void add_reads(Step::Adding& task);
 

@@ -54,10 +54,10 @@ Launch RestingBodies::see(Buffer<float4>& targets, const ObstaclePushes& obstacl
 }
 
 Launch RestingBodies::collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
-                              int body_count) {
+                              Buffer<float>* gradients, int body_count) {
     return pushes.collect_resting({positions, *model_.previous, targets_, starts, slips_,
                                    model_.obstacles->placements(), borne_, solid_, hardness_,
-                                   body_count, model_.obstacles->count(), reach_});
+                                   gradients, body_count, model_.obstacles->count(), reach_});
 }
 
 void RestingBodies::add_collect_accesses(Step::Adding& task, const ObstaclePushes& obstacles,

@@ -30,9 +30,10 @@ public:
     Buffer<float4>& targets() { return targets_; }
     Buffer<float4>& starts() { return starts_; }
     Launch see(Buffer<float4>& targets, const ObstaclePushes& obstacles);
-    /// Behind the contacts of `pushes`. starts: x~ before obstacles push
+    /// Behind the contacts of `pushes`. starts: x~ before obstacles push. gradients: as
+    /// BodyPushes::Resting's
     Launch collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
-                   int body_count);
+                   Buffer<float>* gradients, int body_count);
     /// What both need of vertices [first, last), besides the positions and the true x~.
     void add_collect_accesses(Step::Adding& task, const ObstaclePushes& obstacles, int first,
                               int last);

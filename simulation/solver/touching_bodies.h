@@ -19,12 +19,16 @@ namespace weft {
 /// one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
+    struct Setting {
+        Buffer<float>* multipliers;  ///< as BodyPushes'
+        float held;                  ///< as in missing_motion (kernels/bodies/free_bodies.h)
+        bool are_projected;  ///< by constraints: how far does not say what obstacles bear of solids
+        int first_kind;      ///< of the tasks
+    };
     /// Null: nothing may touch a free body.
-    /// contact: null: none. multipliers: as BodyPushes'. held: as in missing_motion
-    /// (kernels/bodies/free_bodies.h). first_kind: of the tasks. All others must outlive this.
+    /// contact: null: none. All others must outlive this.
     static std::unique_ptr<TouchingBodies> of(Model& model, FreeBodies& bodies,
-                                              ContactResponse* contact, Buffer<float>* multipliers,
-                                              float held, int first_kind);
+                                              ContactResponse* contact, const Setting& setting);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
@@ -55,10 +59,10 @@ public:
 
 private:
     TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
-                   std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers, float held,
-                   int first_kind);
+                   std::unique_ptr<RestingBodies> resting, const Setting& setting);
     Buffer<float4>* starts();
-    std::vector<Launch> collect(Buffer<float4>& positions);
+    /// is_known: what obstacles bear of solids, by what has pushed these
+    std::vector<Launch> collect(Buffer<float4>& positions, bool is_known);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();
     void add_collection(Step& step, const TaskBody& body, const Region& region,
@@ -87,6 +91,7 @@ private:
     std::unique_ptr<BodyStops> stops_;        ///< null: nobody stops as a whole
     float held_;
     bool has_multipliers_;
+    bool are_projected_;
     int is_rubbed_;  ///< 1 with friction
     int parts_;      ///< that are summed up
     BodyPushes pushes_;

@@ -239,6 +239,8 @@ void collect_resting_case(KernelCase& c) {
     auto& solid = add_flags(c, "solid");
     auto& hardness = c.add<float>("hardness", c.items);
     for (float& k : hardness.span()) k = c.random.real(1.0f, 1e4f);
+    auto& gradients = c.add<float>("gradients", 3 * c.items);
+    for (float& g : gradients.span()) g = c.random.real(-1e3f, 1e3f);
     const int member_count = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
     auto& members = response::add_indices(c, "members", member_count, c.items);
     auto& shares = c.add<float>("shares", member_count);
@@ -257,11 +259,11 @@ void collect_resting_case(KernelCase& c) {
     auto& points = c.add<float4>("points", rows.entries);
     auto& other_points = c.add<float4>("other_points", rows.entries);
     auto& presses = c.add<float>("presses", rows.entries);
-    c.launch =
-        launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen, starts,
-               kept, obstacles, borne, solid, hardness, members, shares, column_rows, rows.rows,
-               rows.counts, needs, codes, sides, slips, forces, points, other_points, presses,
-               c.items, response::kBodies, kObstacles, 0.1f, 1e4f, kInstance);
+    c.launch = launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen,
+                      starts, kept, obstacles, borne, solid, hardness, gradients, members, shares,
+                      column_rows, rows.rows, rows.counts, needs, codes, sides, slips, forces,
+                      points, other_points, presses, c.items, c.items, response::kBodies,
+                      kObstacles, 0.1f, 1e4f, c.random.integer(0, 1), kInstance);
 }
 
 void keep_resting_slips_case(KernelCase& c) {
