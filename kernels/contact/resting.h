@@ -9,17 +9,20 @@
 // before the first iteration and behind the last one, and in rounds obstacles are contacts like any
 // other. An entry of a body's row is a vertex that is near one. It presses by
 //
-//   max(0, known + e - k gap)
+//   max(0, r - k gap)
 //
-// where `known` is what the obstacle is known to bear there (bodies/reactions.h), none before the
-// first iteration; the body lacks that no more, so what counts is how much more or less it gets.
-// e is the force by which a solid's elements press the vertex against the obstacle, which bears
-// that, too: a corner that has met the ground stops, and only e says that the body goes on and
-// crushes it. k is about how hard the elements resist there, so e - k gap is what there will be
-// when the body has moved by so much. Behind iterations that descend it is among what is known, as
-// they pull the vertex back into the obstacle by it each time; projections do not tell. A block of
-// 1e7 Pa that xpbd dropped by 10 cm stored 20 times the energy of its fall without that
-// (docs/measurements.md, "Solids that fall on their corners").
+// where r is what the obstacle bears there now: of a vertex that stays where it is, what elements
+// press it by and what its inertia lacks,
+//
+//   r = n . (g + m/h^2 (x - x~))
+//
+// with the gradient g of the elements' energy. k is about how hard elements resist there, so that
+// is what there will be when the body has moved. A corner that has met the ground stops, and only g
+// says that the body goes on and crushes it: a block of 1e7 Pa that xpbd dropped by 10 cm stored 20
+// times the energy of its fall (docs/measurements.md, "Solids that fall on their corners"). By
+// pushes that have led x~ along, a part of r is known (bodies/reactions.h), none of it before the
+// first iteration; the body lacks that no more, so what counts is how much more or less it gets. Of
+// cloth that part is all.
 //
 // An entry rubs solids as contacts do: by the slip since the vertex came to lie there (sticking.h),
 // and as hard as what bears the body says (bearings.h).
@@ -88,8 +91,7 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
 /// borne        [vertices] 1: of a body that lies on obstacles as a whole; else 0
 /// solid        [vertices] as in see_targets: what obstacles rub
 /// hardness     [vertices] k [N/m]
-/// gradients    [3 * vertex_count] column-major: of the elements' energy [N]; not read without
-///              has_gradients, where e is 0
+/// gradients    [3 * vertex_count] column-major: g [N]; not read without has_gradients
 /// push_rows to presses  as collect_pushes leaves them; here of other_points w: what is known [N]
 /// reach        [m] what is farther away has no entry, unless it may come so far: twice as far as it
 ///              has gone, where its body is turned
@@ -128,7 +130,10 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
         const real is_solid = gather(solid, vertex);
         real3 gradient = make3(zero, zero, zero);
         if (has_gradients) gradient = gather_gradient(gradients, vertex, vertex_count);
-        real3 led = subtract(xyz(gather4(seen_targets, vertex)), xyz(gather4(starts, vertex)));
+        const real inertia = counts > zero ? splat(inverse_h2) / x.w : zero;
+        const real3 target = xyz(gather4(seen_targets, vertex));
+        real3 pull = add_scaled(gradient, subtract(target, xyz(x)), -inertia);
+        real3 led = subtract(target, xyz(gather4(starts, vertex)));
         for (int number = 0; number < obstacle_count; ++number) {
             WEFT_GLOBAL const float4* o =
                 obstacles + WEFT_OBSTACLE_ROWS * (instance * obstacle_count + number);
@@ -140,9 +145,10 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             const real3 normal = apply_back(o, near.normal);
             const real way = is_near ? larger(dot3(led, normal), zero) : zero;
             led = add_scaled(led, normal, -way);
-            const real known = way * splat(inverse_h2) / (is_near ? x.w : one);
-            const real pressed =
-                larger(dot3(gradient, normal), zero) * is_solid / (is_near ? hard : one);
+            const real known = way * inertia;
+            const real more = is_near ? dot3(pull, normal) * is_solid : zero;
+            pull = add_scaled(pull, normal, -more);
+            const real pressed = more / (is_near ? hard : one);
             const real3 slid = slid_along(o, xyz(x), before, normal);
             const real3 slip = add(slid, along_surface(earlier, normal));
             const mask fits = both(is_near, found < room);

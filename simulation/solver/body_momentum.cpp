@@ -29,8 +29,7 @@ BodyMomentum::BodyMomentum(Model& model, ContactResponse* contact, Buffer<float>
     const float held = cloth_ || (contact && !multipliers) ? kHeld : 0.0f;
     if (free_bodies_)
         touching_ =
-            TouchingBodies::of(model, *free_bodies_, contact,
-                               {multipliers, held, solves == Solves::kConstraints, first_kind + 1});
+            TouchingBodies::of(model, *free_bodies_, contact, multipliers, held, first_kind + 1);
     if (free_bodies_ && !touching_) lone_ = std::make_unique<LoneBodies>(*free_bodies_, held);
     if (solves != Solves::kConstraints)
         held_ = HeldBodies::of(model, contact, first_kind + static_cast<int>(kinds().size()));

@@ -62,26 +62,27 @@ std::optional<ContactRows> rows_of(ContactResponse* contact) {
 
 std::unique_ptr<TouchingBodies> TouchingBodies::of(Model& model, FreeBodies& bodies,
                                                    ContactResponse* contact,
-                                                   const Setting& setting) {
+                                                   Buffer<float>* multipliers, float held,
+                                                   int first_kind) {
     auto resting = RestingBodies::of(model, bodies, rubbing_of(model).creep);
     if (!contact && !resting) return nullptr;
-    return std::unique_ptr<TouchingBodies>(
-        new TouchingBodies(model, bodies, contact, std::move(resting), setting));
+    return std::unique_ptr<TouchingBodies>(new TouchingBodies(
+        model, bodies, contact, std::move(resting), multipliers, held, first_kind));
 }
 
 TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
-                               std::unique_ptr<RestingBodies> resting, const Setting& setting)
+                               std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers,
+                               float held, int first_kind)
     : model_(model),
       bodies_(bodies),
       resting_(std::move(resting)),
       stops_(BodyStops::of(model, bodies, contact)),
-      held_(setting.held),
-      has_multipliers_(setting.multipliers != nullptr),
-      are_projected_(setting.are_projected),
+      held_(held),
+      has_multipliers_(multipliers != nullptr),
       is_rubbed_(rubbing_of(model).friction > 0 ||
                  (resting_ && bodies.has_solids() && model.obstacles->have_friction())),
       parts_(is_rubbed_ ? WEFT_RUBBED_BODY_PARTS : WEFT_BODY_PARTS),
-      pushes_(rows_of(contact), bodies.columns(), rubbing_of(model), setting.multipliers, model.h),
+      pushes_(rows_of(contact), bodies.columns(), rubbing_of(model), multipliers, model.h),
       groups_(contact ? &contact->motion().group(parts_of(model, bodies)) : nullptr),
       lag_count_(bodies.run_count() + bodies.most_runs()),
       partials_("touching.partials", at(parts_ * bodies.column_count())),
@@ -99,7 +100,6 @@ TouchingBodies::TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse
       are_led_("touching.are_led", motions_.count() / 2),
       moments_(bodies, first_run_, counts_),
       begin_("touching.begin", model.strips.begin.size()) {
-    const int first_kind = setting.first_kind;
     number_bodies(model);
     std::fill(begin_.data() + 1, begin_.data() + begin_.count(), body_count());
     first_collect_ = collect_ = {"pushes", first_kind, {}};
@@ -165,7 +165,7 @@ std::vector<Launch> TouchingBodies::sum(Buffer<float4>& positions, Buffer<float4
                                         const ObstaclePushes& obstacles, int kind) {
     targets_ = &targets;
     obstacles_ = obstacles;
-    collect_.launches = collect(positions, !are_projected_);
+    collect_.launches = collect(positions);
     for (int level = 0; level < level_count(); ++level) {
         BodyPushes::Round round{.is_rubbed = is_rubbed_, .has_moved = 1, .level = level};
         sums_again_.push_back({"momentum", kind, sum_round(round)});
@@ -182,7 +182,7 @@ Buffer<float4>* TouchingBodies::starts() {
     return resting_ ? &resting_->starts() : obstacles_.starts;
 }
 
-std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions, bool is_known) {
+std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
     std::vector<Launch> launches;
     if (resting_) launches.push_back(resting_->see(*targets_, obstacles_));
     Buffer<float4>& targets = resting_ ? resting_->targets() : *targets_;
@@ -195,7 +195,7 @@ std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions, bool is_k
     if (stops_) launches.push_back(stops_->collect(pushes_, positions, *targets_, body_count()));
     if (resting_)
         launches.push_back(resting_->collect(pushes_, positions, *obstacles_.starts,
-                                             solids_ && !is_known ? &solids_->gradients() : nullptr,
+                                             solids_ ? &solids_->gradients() : nullptr,
                                              body_count()));
     return launches;
 }
@@ -306,7 +306,7 @@ void TouchingBodies::add_steps(Step& step, const TaskBody& body, int iteration) 
 /// where solvers descend, it starts from what has held up each of its vertices, and piles that are
 /// led as well would have that twice.
 Launch TouchingBodies::lead(float less) {
-    first_collect_.launches = collect(*model_.positions, false);
+    first_collect_.launches = collect(*model_.positions);
     for (int body = 0; body < body_count(); ++body) {
         are_led_[at(body)] = has_multipliers_ || is_solid(body) ? 1.0f : 0.0f;
     }

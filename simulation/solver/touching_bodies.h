@@ -19,16 +19,12 @@ namespace weft {
 /// one device that makes steps of them, in turns.
 class TouchingBodies {
 public:
-    struct Setting {
-        Buffer<float>* multipliers;  ///< as BodyPushes'
-        float held;                  ///< as in missing_motion (kernels/bodies/free_bodies.h)
-        bool are_projected;  ///< by constraints: how far does not say what obstacles bear of solids
-        int first_kind;      ///< of the tasks
-    };
     /// Null: nothing may touch a free body.
-    /// contact: null: none. All others must outlive this.
+    /// contact: null: none. multipliers: as BodyPushes'. held: as in missing_motion
+    /// (kernels/bodies/free_bodies.h). first_kind: of the tasks. All others must outlive this.
     static std::unique_ptr<TouchingBodies> of(Model& model, FreeBodies& bodies,
-                                              ContactResponse* contact, const Setting& setting);
+                                              ContactResponse* contact, Buffer<float>* multipliers,
+                                              float held, int first_kind);
 
     /// As FreeBodies', of the first round. kind: of the tasks that do it
     std::vector<Launch> sum(Buffer<float4>& positions, Buffer<float4>& targets,
@@ -59,10 +55,10 @@ public:
 
 private:
     TouchingBodies(Model& model, FreeBodies& bodies, ContactResponse* contact,
-                   std::unique_ptr<RestingBodies> resting, const Setting& setting);
+                   std::unique_ptr<RestingBodies> resting, Buffer<float>* multipliers, float held,
+                   int first_kind);
     Buffer<float4>* starts();
-    /// is_known: what obstacles bear of solids, by what has pushed these
-    std::vector<Launch> collect(Buffer<float4>& positions, bool is_known);
+    std::vector<Launch> collect(Buffer<float4>& positions);
     std::vector<Launch> sum_round(const BodyPushes::Round& round);
     Launch solve_strains();
     void add_collection(Step& step, const TaskBody& body, const Region& region,
@@ -91,7 +87,6 @@ private:
     std::unique_ptr<BodyStops> stops_;        ///< null: nobody stops as a whole
     float held_;
     bool has_multipliers_;
-    bool are_projected_;
     int is_rubbed_;  ///< 1 with friction
     int parts_;      ///< that are summed up
     BodyPushes pushes_;
