@@ -43,6 +43,9 @@ WEFT_KERNELS_BEGIN
 /// Behind the point of an entry, instead of the coefficient of friction: this is none of these.
 #define WEFT_RESTS_NOT -1.0f
 
+/// What a vertex may be off an obstacle that it touches, as a part of what is near.
+#define WEFT_RESTING_TOUCH 0.01f
+
 /// How hard an obstacle presses [N].
 /// known  as above [N]
 WEFT_INLINE real press_of_resting(contact_entry c, real known) {
@@ -134,34 +137,44 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
         const real3 target = xyz(gather4(seen_targets, vertex));
         real3 pull = add_scaled(gradient, subtract(target, xyz(x)), -inertia);
         real3 led = subtract(target, xyz(gather4(starts, vertex)));
-        for (int number = 0; number < obstacle_count; ++number) {
+        // Of several, those bear it that it touches, or the nearest one, which is found first.
+        real least = splat(1e30f);
+        const int first_place = obstacle_count > 1 ? -obstacle_count : 0;
+        for (int place = first_place; place < obstacle_count; ++place) {
+            const int number = place < 0 ? place + obstacle_count : place;
             WEFT_GLOBAL const float4* o =
                 obstacles + WEFT_OBSTACLE_ROWS * (instance * obstacle_count + number);
             const nearness near = seen_from(o, before, xyz(x));
             const real gap = near.distance - splat(o[7].x);
+            if (place < 0) {
+                least = smaller(least, gap);
+                continue;
+            }
             const mask is_near = both(counts > zero, gap < near_enough);
             if (!any_item(is_near)) continue;
-            // Of several that are known to push as one, the first ones push.
+            const mask bears =
+                both(is_near, gap < larger(least, zero) + splat(WEFT_RESTING_TOUCH * reach));
+            // Of several that push as one, the first ones push.
             const real3 normal = apply_back(o, near.normal);
-            const real way = is_near ? larger(dot3(led, normal), zero) : zero;
+            const real way = bears ? larger(dot3(led, normal), zero) : zero;
             led = add_scaled(led, normal, -way);
             const real known = way * inertia;
-            const real more = is_near ? dot3(pull, normal) * is_solid : zero;
+            const real more = bears ? dot3(pull, normal) * is_solid : zero;
             pull = add_scaled(pull, normal, -more);
             const real pressed = more / (is_near ? hard : one);
             const real3 slid = slid_along(o, xyz(x), before, normal);
             const real3 slip = add(slid, along_surface(earlier, normal));
             const mask fits = both(is_near, found < room);
-            const integer place = address(push_start + found * WEFT_ROW_STRIDE);
+            const integer entry = address(push_start + found * WEFT_ROW_STRIDE);
             const real4 force = {one, one, hard, one};
             const real friction = splat(o[7].y) * is_solid;
-            scatter_whole_where(fits, codes, place, code_of_body(splat_whole(body_count)));
-            scatter4_where(fits, sides, place, with_w(normal, gap - pressed));
-            scatter4_where(fits, slips, place, with_w(slip, one));
-            scatter4_where(fits, forces, place, force);
-            scatter4_where(fits, points, place, with_w(xyz(x), friction));
-            scatter4_where(fits, other_points, place, with_w(xyz(x), known));
-            scatter_where(fits, presses, place, known);
+            scatter_whole_where(fits, codes, entry, code_of_body(splat_whole(body_count)));
+            scatter4_where(fits, sides, entry, with_w(normal, gap - pressed));
+            scatter4_where(fits, slips, entry, with_w(slip, one));
+            scatter4_where(fits, forces, entry, force);
+            scatter4_where(fits, points, entry, with_w(xyz(x), friction));
+            scatter4_where(fits, other_points, entry, with_w(xyz(x), known));
+            scatter_where(fits, presses, entry, known);
             found = is_near ? found + splat_whole(1) : found;
         }
     }

@@ -86,7 +86,8 @@ OpenClTarget describe(const cl::Device& device, const DeviceOptions& options) {
     info.memory = options.memory.value_or(memory_model(device));
     info.strict = options.strict_math && rounds_correctly(device);
     info.lanes = options.opencl_lanes != 0 ? options.opencl_lanes : (is_cpu ? 8 : 1);
-    const BuildOptions build{info.lanes, options.strict_math};
+    // PoCL keeps what it compiles itself, and compiles all once more for a binary.
+    const BuildOptions build{info.lanes, options.strict_math, !target.is_pocl};
     target.programs = std::make_shared<Programs>(target.context, device, build);
     return target;
 }

@@ -41,6 +41,7 @@ Programs::Programs(const cl::Context& context, const cl::Device& device,
     : context_(context),
       device_(device),
       flags_(build_flags(device, options)),
+      keep_binaries_(options.keep_binaries),
       driver_(driver_of(device)) {}
 
 /// A program without devices if the bytes are none that this driver takes.
@@ -70,7 +71,7 @@ cl::Program Programs::build(const std::string& text) const {
 }
 
 cl::Program Programs::make(const std::string& text) const {
-    const fs::path folder = cache_folder();
+    const fs::path folder = keep_binaries_ ? cache_folder() : fs::path();
     if (folder.empty()) return build(text);
     const fs::path path = folder / (cache_key(driver_ + '\n' + flags_ + '\n' + text) + ".bin");
     if (cl::Program kept = from_disk(read_cached(path)); kept() != nullptr) return kept;

@@ -385,5 +385,39 @@ TEST_P(LandingCorner, StoresNoMoreThanItFell) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, LandingCorner, kMethods, name_of_method);
 
+class LandingStep : public Landing {};
+
+/// On a box that stands out of a plane by less than the thickness. What bore it was put down to
+/// the plane, which comes first, and it never lay still.
+TEST_P(LandingStep, LiesOnWhatIsNearer) {
+    const std::string text = R"(
+[scene]
+frames = 1
+dt = 0.016666667
+[[solid]]
+grid = { size = [0.2, 0.1, 0.2], resolution = [5, 4, 5] }
+translate = [0, 0.0545, 0]
+density = 500
+young = 1e6
+poisson = 0.3
+[[obstacle]]
+shape = "plane"
+point = [0, 0, 0]
+friction = 0.4
+[[obstacle]]
+shape = "box"
+center = [0, -0.046, 0]
+size = [1, 0.1, 1]
+friction = 0.4
+[contact]
+thickness = 0.01
+)";
+    Run run(scene_of(text));
+    for (int frame = 0; frame < 60; ++frame) run.advance();
+    EXPECT_LT(run.energies().kinetic, 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LandingStep, kMethods, name_of_method);
+
 }  // namespace
 }  // namespace weft::test
