@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "simulation/checks/triangle_distance.h"
 #include "simulation/mesh/crossings.h"
 #include "simulation/model/model.h"
+#include "simulation/model/triangle_distance.h"
 
 namespace weft {
 

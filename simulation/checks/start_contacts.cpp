@@ -10,11 +10,11 @@
 #include "runtime/error.h"
 #include "runtime/tbb/parallel.h"
 #include "simulation/checks/contact_surface.h"
-#include "simulation/checks/triangle_distance.h"
 #include "simulation/mesh/vertex_sets.h"
 #include "simulation/mesh/winding.h"
 #include "simulation/model/contact_thickness.h"
 #include "simulation/model/reach.h"
+#include "simulation/model/triangle_distance.h"
 
 namespace weft {
 

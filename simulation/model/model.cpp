@@ -53,11 +53,8 @@ std::vector<Stencils> kinds_of(const Gathered& all) {
 /// The scene with all values that the file leaves out and the meshes say. warnings: null: it has
 /// substeps, and nobody listens
 Scene with_values(const Scene& given, const Gathered& all, Warnings* warnings) {
-    Warnings unheard;
     Scene scene = warnings != nullptr ? with_substeps(given, all, *warnings) : given;
-    if (scene.contact) {
-        choose_thickness(*scene.contact, all, warnings != nullptr ? *warnings : unheard);
-    }
+    if (scene.contact) choose_thickness(*scene.contact, all, warnings);
     return scene;
 }
 

@@ -1,5 +1,6 @@
 // Obstacles that are meshes: vertices of the model that are led.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -87,6 +88,37 @@ TEST(ContactThickness, IsLessThanTheShortestEdge) {
     const double of_slivers = thickness_with(201);
     EXPECT_GT(of_slivers, 0.02);
     EXPECT_LT(of_slivers, 0.06);
+}
+
+/// Bodies that start nearer than that would push each other off at once.
+TEST(ContactThickness, IsLessThanBodiesAreApart) {
+    const auto sheet = [](double height, double size) {
+        return fmt::format(
+            "[[cloth]]\ndensity = 0.2\nstretch = {{ stiffness = 1000.0 }}\n"
+            "grid = {{ size = [{1}, {1}], resolution = [11, 11] }}\n"
+            "translate = [0.0, {0}, 0.0]\n",
+            height, size);
+    };
+    Warnings warnings;
+    const auto thickness_with = [&](const std::string& contact, const std::string& bodies) {
+        const std::string text = "[scene]\nframes = 1\ndt = 0.01\nsubsteps = 4\n[contact]\n";
+        warnings.clear();
+        return Model(parse_scene(text + contact + bodies, "s.toml"), warnings)
+            .scene.contact->thickness;
+    };
+    const double good = thickness_with("", sheet(0.0, 1.0));
+    EXPECT_GT(good, 0.025);
+    EXPECT_NEAR(thickness_with("", sheet(0.0, 1.0) + sheet(0.03, 1.0)), good, 1e-9);
+    EXPECT_NEAR(thickness_with("", sheet(0.0, 1.0) + sheet(0.02, 1.0)), 0.9 * 0.02, 1e-6);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_NEAR(thickness_with("", sheet(0.0, 1.0) + sheet(0.005, 1.0)), 0.4 * good, 1e-3);
+    ASSERT_EQ(warnings.size(), 1u) << "a tenth of the edges is the least that it may be";
+    EXPECT_NE(warnings[0].find("contact pushes them apart at once: 0.0045 m"), std::string::npos)
+        << warnings[0];
+    thickness_with("thickness = 0.02\n", sheet(0.0, 1.0) + sheet(0.02, 1.0));
+    EXPECT_TRUE(warnings.empty());
+    thickness_with("thickness = 0.02\n", sheet(0.0, 1.0) + sheet(0.015, 1.0));
+    EXPECT_EQ(warnings.size(), 1u);
 }
 
 TEST(MeshObstacles, NeedContactAndOneShape) {

@@ -1,6 +1,6 @@
 #include "simulation/families/in_double.h"
 
-#include "simulation/checks/triangle_distance.h"
+#include "simulation/model/triangle_distance.h"
 
 #include <algorithm>
 #include <cmath>
