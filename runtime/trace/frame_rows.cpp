@@ -29,6 +29,7 @@ constexpr FrameColumn kFrames[] = {
     {"strain_max", &FrameRecord::strain_max},
     {"work", &FrameRecord::work, "J"},
     {"dissipated", &FrameRecord::dissipated, "J"},
+    {"gained", &FrameRecord::gained, "J"},
     {"relative_error_estimate", &FrameRecord::relative_error},
     {"transferred_bytes", &FrameRecord::transferred_bytes, "B"},
     {"graph", GraphNumber{}},

@@ -173,6 +173,7 @@ struct FrameRecord {
     double gravity_energy = 0.0;   ///< potential in gravity [J]
     double work = 0.0;             ///< by what moves by itself, since the start [J]; NaN: not known
     double dissipated = 0.0;       ///< since the start [J]; NaN: not known
+    double gained = 0.0;           ///< of what was dissipated, what has come back [J]; likewise
     std::vector<double> energies;  ///< [RunDescription::energies] [J]; empty: not measured
     std::vector<std::string> warnings;  ///< of what there is to doubt in it; devices that were lost
 

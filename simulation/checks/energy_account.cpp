@@ -18,13 +18,14 @@ namespace {
 // Sweeps of few iterations, in scenes that look as they should, have strain of a few times the
 // energy that it should have while edges are hardly longer. Where edges are far longer, nothing
 // looks as it should, and strain has no more excuse than motion.
+constexpr double kMostHiddenStrain = 50.0;
 constexpr double kMostStrain = 10.0;
 constexpr double kVisibleStrain = 0.05;  ///< of edges, RMS
 constexpr double kVisibleStrainOfSolids = 0.02;
 constexpr double kMostHiddenStrainOfSolids = 4.0;
 constexpr double kTornStrain = 1.0;  ///< of one edge
 // What contacts have stored is seen as little in edges as it has to do with them.
-constexpr double kMostInContacts = 10.0;
+constexpr double kMostInContacts = 2.0;
 constexpr double kMostInTies = 10.0;  ///< likewise
 // And what no such sweep does.
 constexpr double kExplodingStrain = 1000.0;
@@ -40,14 +41,14 @@ bool is_visible(const Model& model, const Strain& strain) {
     return strain.rms > visible || strain.most > kTornStrain;
 }
 
-/// How much more strain than there was energy for is excused: in cloth infinitely much where it is
-/// not to be seen, and less the plainer it is. Solids bend by the strain of their edges: a beam
-/// sags plainly with hardly any, and there is no cloth that looks as it should all the same.
+/// How much more strain than there was energy for is excused: in cloth less the plainer it is.
+/// Solids bend by the strain of their edges: a beam sags plainly with hardly any, and there is no
+/// cloth that looks as it should all the same.
 double most_strain(const Model& model, const Strain& strain) {
     if (model.scene.cloths.empty()) {
         return is_visible(model, strain) ? kMostMotion : kMostHiddenStrainOfSolids;
     }
-    if (!is_visible(model, strain)) return std::numeric_limits<double>::infinity();
+    if (!is_visible(model, strain)) return kMostHiddenStrain;
     return std::clamp(kMostStrain * kVisibleStrain / std::max(strain.rms, kVisibleStrain),
                       kMostMotion, kMostStrain);
 }
@@ -90,21 +91,31 @@ double EnergyAccount::energy_of_ties(const Model& model) const {
 EnergyAccount::Entry EnergyAccount::with_frame(double time, const OutsideWork& outside,
                                                const Energies& end, double found) const {
     if (time < closed_) return {end.total(), {}, end, false};
-    Entry entry{last_.start + found, last_.outside, end, true};
+    Entry entry{last_.start + found,   last_.outside,      end,           true,
+                last_.most_dissipated, last_.lost_at_once, last_.forgiven};
     if (std::isinf(last_.outside.doubt) && std::isfinite(outside.doubt)) {
         entry.start = last_.energies.total() + found;
         entry.outside = {};
+        entry.most_dissipated = entry.lost_at_once = entry.forgiven = 0.0;
     }
     entry.outside.work += outside.work;
     entry.outside.doubt += outside.doubt;
+    const double lost = entry.dissipated() - entry.most_dissipated;
+    entry.lost_at_once += std::clamp(lost, 0.0, std::max(found, 0.0));
+    entry.most_dissipated = std::max(entry.most_dissipated, entry.dissipated());
     return entry;
+}
+
+double EnergyAccount::Entry::gained() const {
+    if (!is_known || std::isinf(outside.doubt)) return std::numeric_limits<double>::quiet_NaN();
+    return std::max(most_dissipated - dissipated() - outside.doubt, 0.0);
 }
 
 std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain& strain,
                                                const Model& model) const {
     if (!entry.is_known) return std::nullopt;
     const double outside = entry.outside.work + entry.outside.doubt;
-    const double left = entry.start + outside - entry.energies.gravity;
+    const double left = entry.start - entry.lost_at_once + outside - entry.energies.gravity;
     const double had = std::max(left, 0.0);
     const double lifted = std::max(-left, 0.0);
     const double motion = entry.energies.kinetic;
@@ -119,35 +130,45 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
                pressed <= kMostInContacts * enough &&
                (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
     };
+    const auto explodes = [&](double rounding) {
+        const double enough = std::max(left - entry.forgiven, 0.0) + small_ + rounding;
+        return motion > kExplodingMotion * enough ||
+               (strained > kExplodingStrain * enough && is_visible(model, strain));
+    };
+    const auto nothing_is_wrong = [&](double rounding) {
+        return is_fine(rounding) && !explodes(rounding);
+    };
     // What rounding gives takes a while to find out, and is hardly ever asked for.
-    if (is_fine(0.0)) return std::nullopt;
+    if (nothing_is_wrong(0.0)) return std::nullopt;
     const double rounding = energy_of_rounding(model);
-    if (is_fine(rounding)) return std::nullopt;
-    const double enough = had + small_ + rounding;
-    const bool explodes = motion > kExplodingMotion * enough ||
-                          (strained > kExplodingStrain * enough && is_visible(model, strain));
+    if (nothing_is_wrong(rounding)) return std::nullopt;
     const std::string in_contacts =
         pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "";
     return EnergyAlarm{
         fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
                     "{:.3g} % RMS), {}",
                     motion, strained, in_contacts, 100.0 * strain.rms, there_was(had, lifted)),
-        explodes};
+        explodes(rounding)};
 }
 
-void EnergyAccount::forgive() {
+void EnergyAccount::forgive(bool is_explosion) {
+    const double made = std::max(last_.lost_at_once - last_.dissipated(), 0.0);
+    last_.forgiven = is_explosion ? 0.0 : last_.forgiven + made;
     last_.start = last_.energies.total();
     last_.outside = {};
+    last_.most_dissipated = last_.lost_at_once = 0.0;
 }
 
-std::array<double, 4> EnergyAccount::save() const {
-    return {last_.start, last_.outside.work, last_.outside.doubt,
-            last_.energies.contact.value_or(0.0)};
+std::array<double, 7> EnergyAccount::save() const {
+    return {last_.start,           last_.outside.work,
+            last_.outside.doubt,   last_.energies.contact.value_or(0.0),
+            last_.most_dissipated, last_.lost_at_once,
+            last_.forgiven};
 }
 
-void EnergyAccount::restore(const std::array<double, 4>& saved, Energies now) {
+void EnergyAccount::restore(const std::array<double, 7>& saved, Energies now) {
     if (now.contact) now.contact = saved[3];
-    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true};
+    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true, saved[4], saved[5], saved[6]};
 }
 
 }  // namespace weft

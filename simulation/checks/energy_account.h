@@ -29,9 +29,14 @@ public:
         double start = 0.0;  ///< energy that the account began with [J]
         OutsideWork outside;
         Energies energies;
-        bool is_known = true;  ///< false: something works of which nothing is known
+        bool is_known = true;          ///< false: something works of which nothing is known
+        double most_dissipated = 0.0;  ///< [J] that was so far
+        double lost_at_once = 0.0;     ///< [J] of what was found, by the frame that found it
+        double forgiven = 0.0;         ///< [J] that came from nowhere, and counts as had since
 
         double dissipated() const { return start + outside.work - energies.total(); }
+        /// What has come from nowhere [J]: nothing that is dissipated comes back. NaN: not known
+        double gained() const;
     };
 
     /// start: of the state that the run begins with
@@ -39,20 +44,21 @@ public:
 
     const Entry& last() const { return last_; }
     /// With one more frame, that begins at `time`. found: energy that was there to be had without
-    /// being known of [J]
+    /// being known of [J]; what of it the frame loses is there no more
     Entry with_frame(double time, const OutsideWork& outside, const Energies& end,
                      double found = 0.0) const;
     /// Whether there is energy from nowhere in it; the model is at the entry's state.
     std::optional<EnergyAlarm> look(const Entry& entry, const Strain& strain,
                                     const Model& model) const;
     void accept(Entry entry) { last_ = std::move(entry); }
-    /// Begins anew: what was made from nowhere is now there to be had.
-    void forgive();
+    /// Begins anew: what was made from nowhere is now there to be had. After a doubt it is so for
+    /// doubts alone: what creeps up from one to the next explodes in the end.
+    void forgive(bool is_explosion);
 
     /// The numbers that it carries, for checkpoints.
-    std::array<double, 4> save() const;
+    std::array<double, 7> save() const;
     /// now: of the state, without what contacts have stored
-    void restore(const std::array<double, 4>& saved, Energies now);
+    void restore(const std::array<double, 7>& saved, Energies now);
 
 private:
     double closed_;  ///< [s] when the last seam is: until then the ends of frames tell too little

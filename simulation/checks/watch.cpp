@@ -62,12 +62,12 @@ void Watch::accept(const Look& look, bool forgives) {
     account_.accept(look.entry);
     knows_contacts_ = true;
     if (!forgives) return;
-    account_.forgive();
+    account_.forgive(look.alarm && look.alarm->kind == Alarm::Kind::kExplosion);
     bodies_.forgive(look.bodies);
 }
 
 void Watch::restart(const Model& model, double time,
-                    const std::optional<std::array<double, 4>>& saved) {
+                    const std::optional<std::array<double, 7>>& saved) {
     knows_contacts_ = saved.has_value();
     const Energies now = energies_of(model, time);
     if (saved) {

@@ -116,6 +116,10 @@ std::string energies_text(const RunSummary& summary) {
         text += fmt::format("; done by what moves {:.6g} J, dissipated {:.6g} J", summary.work,
                             summary.dissipated);
     }
+    if (summary.gained > 0.0) {
+        text += fmt::format(", from nowhere up to {:.3g} J in frame {}", summary.gained,
+                            summary.gained_frame);
+    }
     return text;
 }
 
@@ -158,6 +162,8 @@ nlohmann::ordered_json to_json(const RunSummary& summary) {
     json["energies"] = energies;
     json["work"] = summary.work;
     json["dissipated"] = summary.dissipated;
+    json["gained"] = summary.gained;
+    json["gained_frame"] = summary.gained_frame;
     json["strain_rms"] = summary.strain_rms;
     json["strain_frame"] = summary.strain_frame;
     json["strain_max"] = summary.strain_max;

@@ -54,8 +54,10 @@ struct RunSummary {
     double utilisation = 0.0;                            ///< mean over devices
     std::vector<Device> devices;
     std::vector<std::pair<std::string, double>> energies;  ///< at the end [J]; the last is "total"
-    double work = 0.0;        ///< by what moves by itself, all frames [J]; NaN: not known
-    double dissipated = 0.0;  ///< all frames [J]; NaN: not known
+    double work = 0.0;             ///< by what moves by itself, all frames [J]; NaN: not known
+    double dissipated = 0.0;       ///< all frames [J]; NaN: not known
+    double gained = 0.0;           ///< from nowhere, in the worst frame [J]
+    std::size_t gained_frame = 0;  ///< that frame
     // Of edges, |length / rest length - 1|.
     double strain_rms = 0.0;         ///< of all, in the frame in which it is most
     std::size_t strain_frame = 0;    ///< that frame

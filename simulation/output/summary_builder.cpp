@@ -136,6 +136,10 @@ void SummaryBuilder::set_energies(const FrameRecord& frame) {
     summary_.energies.emplace_back("total", total);
     summary_.work = frame.work;
     summary_.dissipated = frame.dissipated;
+    if (frame.gained > summary_.gained) {
+        summary_.gained = frame.gained;
+        summary_.gained_frame = frame.frame;
+    }
 }
 
 RunSummary SummaryBuilder::summary() const {
@@ -170,7 +174,8 @@ RunSummary SummaryBuilder::summary() const {
 
 /// The records that a checkpoint keeps.
 struct SummaryBuilder::Kept {
-    static constexpr KeptArray kAccount{&RunSummary::work, &RunSummary::dissipated};
+    static constexpr KeptArray kAccount{&RunSummary::work, &RunSummary::dissipated,
+                                        &RunSummary::gained, &RunSummary::gained_frame};
     static constexpr KeptArray kStrain{&RunSummary::strain_rms, &RunSummary::strain_frame,
                                        &RunSummary::strain_max, &RunSummary::strain_rms_at_end};
     static constexpr KeptArray kContact{

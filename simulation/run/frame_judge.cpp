@@ -24,6 +24,7 @@ void record_look(const Watch::Look& look, FrameRecord& record) {
     record.energies = entry.energies.parts();
     record.work = entry.is_known ? entry.outside.work : unknown;
     record.dissipated = entry.is_known ? entry.dissipated() : unknown;
+    record.gained = entry.gained();
 }
 
 void record_steps(const Scene& scene, FrameRecord& record) {

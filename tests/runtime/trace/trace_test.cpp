@@ -86,6 +86,7 @@ TEST_F(Trace, ReadsBackWhatWasWritten) {
     EXPECT_EQ(frame.gravity_energy, expected.gravity_energy);
     EXPECT_EQ(frame.work, expected.work);
     EXPECT_EQ(frame.dissipated, expected.dissipated);
+    EXPECT_EQ(frame.gained, expected.gained);
     EXPECT_EQ(frame.strain_rms, expected.strain_rms);
     EXPECT_EQ(frame.strain_max, expected.strain_max);
     EXPECT_EQ(frame.iterations, expected.iterations);

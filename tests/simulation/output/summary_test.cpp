@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "runtime/error.h"
@@ -39,6 +40,7 @@ FrameRecord frame(std::uint32_t i) {
     frame.energies = {0.5};
     frame.work = 0.5 * i;
     frame.dissipated = 0.25 * i;
+    frame.gained = i == 6 ? 0.125 : i == 9 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
     frame.strain_rms = i == 7 ? 0.3 : 0.01;
     frame.strain_max = i == 5 ? 0.8 : 0.02;
     return frame;
@@ -69,6 +71,8 @@ TEST(Summary, CountsOverFrames) {
     EXPECT_DOUBLE_EQ(summary.energies.back().second, 2.5);
     EXPECT_EQ(summary.work, 9.5);
     EXPECT_EQ(summary.dissipated, 4.75);
+    EXPECT_EQ(summary.gained, 0.125);
+    EXPECT_EQ(summary.gained_frame, 6U);
     EXPECT_EQ(summary.strain_rms, 0.3);
     EXPECT_EQ(summary.strain_frame, 7U);
     EXPECT_EQ(summary.strain_max, 0.8);
