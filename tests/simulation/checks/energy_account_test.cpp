@@ -76,7 +76,7 @@ poisson = 0.3
     const EnergyAccount account(model, energies_of(model));
     for (int v = 0; v < model.vertex_count(); ++v) {
         const bool is_of_sheet = index(model.scene_vertex(v)) < 25;
-        (*model.positions)[static_cast<std::size_t>(v)].x *= is_of_sheet ? 1.0f : block;
+        if (!is_of_sheet) (*model.positions)[static_cast<std::size_t>(v)].x *= block;
     }
     return account.look(account.with_frame(0.0, {}, energies_of(model)), {}, model).has_value();
 }
@@ -87,7 +87,8 @@ TEST(EnergyAccount, TellsOfSolidsBesideCloth) {
     EXPECT_TRUE(is_told_of_longer(1.2f));
 }
 
-/// Nor is strain that hardly shows in edges.
+/// Strain that hardly shows in edges is excused where it is several times what there was to be had
+/// (here seven times), but not without limit.
 TEST(EnergyAccount, TellsOfStrainThatDoesNotShow) {
     ManualRun sheet(loose_sheet());
     Model& model = *sheet.model;
@@ -99,7 +100,7 @@ TEST(EnergyAccount, TellsOfStrainThatDoesNotShow) {
         for (float4& x : model.positions->span()) x.x /= longer;
         return alarm.has_value();
     };
-    EXPECT_FALSE(is_told_of(1.002f));
+    EXPECT_FALSE(is_told_of(1.005f));
     EXPECT_TRUE(is_told_of(1.02f));
 }
 
@@ -108,9 +109,9 @@ TEST(EnergyAccount, CountsWhatIsGained) {
     ManualRun sheet(loose_sheet());
     Model& model = *sheet.model;
     EnergyAccount account(model, energies_of(model));
-    const auto gained_at = [&](float height, double found = 0.0) {
+    const auto gained_at = [&](float height) {
         for (float4& x : model.positions->span()) x.y = height;
-        account.accept(account.with_frame(0.0, {}, energies_of(model), found));
+        account.accept(account.with_frame(0.0, {}, energies_of(model)));
         return account.last().gained();
     };
     const double weight = 9.81 * 0.2;
@@ -119,7 +120,28 @@ TEST(EnergyAccount, CountsWhatIsGained) {
     EXPECT_NEAR(gained_at(-0.5f), 0.5 * weight, 1e-6);
     EXPECT_EQ(gained_at(-2.0f), 0.0);
     EXPECT_NEAR(account.last().dissipated(), 2.0 * weight, 1e-6);
-    EXPECT_EQ(EnergyAccount(model, energies_of(model)).last().gained(), 0.0);
+}
+
+/// What was warned of is there for other warnings, and not for what explodes step by step.
+TEST(EnergyAccount, WhatCreepsUpExplodesInTheEnd) {
+    for (const bool was_explosion : {false, true}) {
+        ManualRun sheet(loose_sheet());
+        Model& model = *sheet.model;
+        EnergyAccount account(model, energies_of(model));
+        const auto alarm_at = [&](float speed) {
+            for (float4& u : model.velocities->span()) u.x = speed;
+            account.accept(account.with_frame(0.0, {}, energies_of(model)));
+            return account.look(account.last(), {}, model);
+        };
+        const auto first = alarm_at(1.0f);
+        ASSERT_TRUE(first);
+        EXPECT_FALSE(first->is_explosion) << "0.1 J, of which 0.03 are excused";
+        account.forgive(was_explosion);
+        EXPECT_FALSE(alarm_at(1.1f));
+        const auto second = alarm_at(1.75f);
+        ASSERT_TRUE(second);
+        EXPECT_EQ(second->is_explosion, !was_explosion);
+    }
 }
 
 /// Sheets that start pressed together may have far more in contacts than comes out of them: that
