@@ -20,12 +20,21 @@ typedef struct {
     WEFT_GLOBAL const float4* anchors;
     WEFT_GLOBAL const float4* goals;
     WEFT_GLOBAL const float* stiffness;
+    WEFT_GLOBAL const float* between_sheets;
 } contact_vertices;
 
 /// Four vertices.
 typedef struct {
     whole c0, c1, c2, c3;
 } contact_corners;
+
+WEFT_INLINE real least_of_corners(WEFT_GLOBAL const float* of_vertices, contact_corners corners) {
+    const real k0 = gather(of_vertices, address(corners.c0));
+    const real k1 = gather(of_vertices, address(corners.c1));
+    const real k2 = gather(of_vertices, address(corners.c2));
+    const real k3 = gather(of_vertices, address(corners.c3));
+    return smaller(smaller(k0, k1), smaller(k2, k3));
+}
 
 WEFT_INLINE contact_pair load_pair(contact_vertices vertices, contact_corners corners) {
     const real zero = splat(0.0f);
@@ -51,8 +60,9 @@ WEFT_INLINE contact_pair load_pair(contact_vertices vertices, contact_corners co
     p.moves1 = g1.w > zero ? one : zero;
     p.moves2 = g2.w > zero ? one : zero;
     p.moves3 = g3.w > zero ? one : zero;
-    p.least = smaller(smaller(gather(vertices.stiffness, c0), gather(vertices.stiffness, c1)),
-                      smaller(gather(vertices.stiffness, c2), gather(vertices.stiffness, c3)));
+    const real of_all = least_of_corners(vertices.stiffness, corners);
+    const real between_sheets = least_of_corners(vertices.between_sheets, corners);
+    p.least = between_sheets < zero ? of_all : between_sheets;
     return p;
 }
 
@@ -198,7 +208,8 @@ WEFT_KERNEL(find_busy_patches, WEFT_GLOBAL const int* around_begin, WEFT_GLOBAL 
 /// side, and have about as many pairs.
 /// anchors     [vertices] xyz: where pairs were found [m], w: how far the vertex may get [m]
 /// goals       [vertices] xyz: where inertia, or the scene, leads them [m]; w = 1/mass [1/kg]
-/// stiffness   [vertices] what a contact's is measured by [N/m]
+/// stiffness   [2 * vertices] column-major: what a contact's is measured by, and what one of sheets
+///             is; < 0: of what is no sheet [N/m]
 /// apexes      [items] the vertex of each
 /// triangle_begin, triangle_list   [items + 1], [entries] which triangles it has
 /// edge_begin, edge_list           likewise its edges
@@ -237,7 +248,7 @@ WEFT_NARROW_KERNEL(fill_contacts, WEFT_GLOBAL const float4* anchors,
     const whole one = splat_whole(1);
     const whole none = splat_whole(0);
     const contact_settings settings = {range, slack, factor};
-    const contact_vertices vertices = {anchors, goals, stiffness};
+    const contact_vertices vertices = {anchors, goals, stiffness, stiffness + vertex_count};
     const contact_columns out = {planes,  corner0, corner1, corner2,
                                  corner3, normals, weights, measures};
     const whole vertex = load_whole(apexes, i);

@@ -69,7 +69,7 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       anchors_("contact.anchors", model.positions->count()),
       strides_("contact.strides", model.positions->count()),
       goals_("contact.goals", model.positions->count()),
-      stiffness_("contact.stiffness", model.positions->count()),
+      stiffness_("contact.stiffness", 2 * model.positions->count()),
       pairs_(make_surface(surface_of(model, model.scene.contact->thickness), model.strips),
              rest_of(model), anchors_, goals_, strides_, model.vertices(),
              {range_, floor_, model.scene.contact->self, kFirstPairs}, first_kind),
@@ -97,7 +97,9 @@ ContactResponse::ContactResponse(Model& model, int first_kind)
       insides_(model.obstacles ? std::make_unique<Insides>(model) : nullptr),
       snapshots_("contact.snapshots", 2 * model.positions->count()),
       energy_(model, rows(), sticking_.get(), fill_kind_ + 1) {
-    std::ranges::copy(contact_stiffness(model), stiffness_.data());
+    const auto [of_all, between_sheets] = contact_stiffness(model);
+    std::ranges::copy(of_all, stiffness_.data());
+    std::ranges::copy(between_sheets, stiffness_.data() + of_all.size());
     std::ranges::copy(quiet_of_vertices(pairs_.surface(), pairs_.buffers().quiet, quiet_.count()),
                       quiet_.data());
     make_fill();

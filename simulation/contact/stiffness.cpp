@@ -16,36 +16,55 @@ constexpr double kHeld = 1e30;
 /// sink, until the iterations push it out again.
 constexpr double kHardness = 100.0;
 
-void add_elements(const ElementFamily& family, std::span<const float4> positions,
-                  std::vector<double>& sums) {
-    for (int e = 0; e < family.count(); ++e) {
-        const auto corners = family.corners(e);
-        const auto stiffness = rest_stiffness(family, e, positions);
-        for (std::size_t k = 0; k < corners.size(); ++k)
-            sums[static_cast<std::size_t>(corners[k])] += stiffness[k];
+/// How much of the stiffness of cloth along itself counts between sheets, which press each other
+/// across it. All of it is 10,000 times m / h^2 and more, which no few iterations solve: piles
+/// stored many times the energy of their fall and swelled. But what is taut presses by it: with a
+/// sixteenth, sheets on a needle find no place (docs/measurements.md, "How stiff contacts of sheets
+/// are").
+constexpr double kBetweenSheets = 0.125;
+
+/// [vertices] how hard elements hold each [N/m].
+std::vector<double> held_by_elements(const Model& model) {
+    const auto positions = model.positions->span();
+    std::vector<double> sums(positions.size());
+    for (const auto& family : model.families) {
+        for (int e = 0; e < family->count(); ++e) {
+            const auto corners = family->corners(e);
+            const auto stiffness = rest_stiffness(*family, e, positions);
+            for (std::size_t k = 0; k < corners.size(); ++k)
+                sums[static_cast<std::size_t>(corners[k])] += stiffness[k];
+        }
     }
+    return sums;
 }
 
 }  // namespace
 
-std::vector<float> contact_stiffness(const Model& model) {
-    const auto positions = model.positions->span();
-    std::vector<double> sums(positions.size());
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        sums[v] = model.masses[v] / (model.h * model.h);
-    }
-    for (const auto& family : model.families) add_elements(*family, positions, sums);
-    std::vector<float> stiffness(sums.size());
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-        stiffness[v] = static_cast<float>(positions[v].w > 0.0f ? sums[v] : kHeld);
+ContactStiffness contact_stiffness(const Model& model) {
+    const std::vector<double> held = held_by_elements(model);
+    const auto with = [&](std::size_t v, double part) {
+        const double sum = model.masses[v] / (model.h * model.h) + part * held[v];
+        return static_cast<float>((*model.positions)[v].w > 0.0f ? sum : kHeld);
+    };
+    ContactStiffness stiffness;
+    for (std::size_t v = 0; v < held.size(); ++v) stiffness.of_all.push_back(with(v, 1.0));
+    stiffness.between_sheets.assign(held.size(), kNoSheet);
+    for (const BodyRange& body : model.bodies) {
+        if (body.kind != "cloth") continue;
+        for (int i = 0; i < body.vertex_count; ++i) {
+            const auto v = static_cast<std::size_t>(model.vertex(body.vertex(i)));
+            stiffness.between_sheets[v] = with(v, kBetweenSheets);
+        }
     }
     return stiffness;
 }
 
 std::vector<float> hard_stiffness(const Model& model) {
-    std::vector<float> stiffness = contact_stiffness(model);
+    const auto [of_all, between_sheets] = contact_stiffness(model);
+    std::vector<float> stiffness(of_all.size());
     for (std::size_t v = 0; v < stiffness.size(); ++v) {
         const double inertia = model.masses[v] / (model.h * model.h);
+        stiffness[v] = between_sheets[v] == kNoSheet ? of_all[v] : between_sheets[v];
         stiffness[v] += static_cast<float>(kHardness * inertia);
     }
     return stiffness;

@@ -260,8 +260,10 @@ void fill_case(KernelCase& c) {
     const int edge_count = 3 * c.items;
     auto& anchors = add_points(c, "anchors", c.items);
     auto& goals = add_points(c, "goals", c.items);
-    auto& stiffness = c.add<float>("stiffness", c.items);
+    auto& stiffness = c.add<float>("stiffness", 2 * c.items);
     for (float& k : stiffness.span()) k = c.random.real(1.0f, 100.0f);
+    // Every seventh vertex is of no sheet.
+    for (int v = 0; v < c.items; v += 7) stiffness[at(c.items + v)] = -1.0f;
     // In any order.
     auto& apexes = c.add<int>("apexes", c.items);
     std::iota(apexes.span().begin(), apexes.span().end(), 0);

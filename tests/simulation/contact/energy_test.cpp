@@ -77,7 +77,7 @@ protected:
 
 TEST_P(ContactEnergyOf, VerticesOverATriangle) {
     ManualRun run(scene());
-    const auto stiffness = contact_stiffness(*run.model);
+    const auto stiffness = contact_stiffness(*run.model).between_sheets;
     const double start = stored_over(*run.model, stiffness);
     run.run_substeps(1);
     const double end = stored_over(*run.model, stiffness);
@@ -91,7 +91,7 @@ TEST_P(ContactEnergyOf, VerticesOverATriangle) {
 /// The first substep begins where the frame does, whatever comes behind it.
 TEST_P(ContactEnergyOf, TheStartIsTheFrames) {
     ManualRun run(scene());
-    const double start = stored_over(*run.model, contact_stiffness(*run.model));
+    const double start = stored_over(*run.model, contact_stiffness(*run.model).between_sheets);
     run.run(1);
     EXPECT_NEAR(run.solver->contact()->energy().stored().start, start, 1e-5 * start);
 }
@@ -106,7 +106,7 @@ SimulationOptions on_one_core() {
 /// Nothing but what contacts have stored sets it moving: that is no energy from nowhere.
 TEST_P(ContactEnergyOf, WhatWasStoredAtTheStartWasThereToBeHad) {
     Simulation run(scene(), on_one_core(), warnings_);
-    const double stored = stored_over(run.model(), contact_stiffness(run.model()));
+    const double stored = stored_over(run.model(), contact_stiffness(run.model()).between_sheets);
     double start = 0.0;
     for (int frame = 0; frame < 20; ++frame) {
         const FrameRecord record = run.advance();

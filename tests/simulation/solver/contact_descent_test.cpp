@@ -26,6 +26,7 @@ dt = 0.002
 substeps = 1
 [contact]
 thickness = 0.02
+stiffness = 32.0
 )" + touching_sheets("0.014");
 
 /// The same, and the upper one slides over the lower one.
