@@ -394,10 +394,15 @@ WEFT_INLINE real3 deviation_of_body(WEFT_GLOBAL const float4* motions,
     return subtract(gather_motion(motions, rows, body).shift, lag);
 }
 
-/// Moves the vertices of free bodies; see move_runs.
+/// Moves the vertices of free bodies; see move_runs. Rounds know how obstacles rub solids, but not
+/// how they rub cloth. A light sheet between a solid and the ground went as far as the solid's
+/// friction led it, was brought back by the ground's in the iterations that followed, and had been
+/// strained by both: the solid was thrown up by tens of joules (docs/measurements.md, "Solids on
+/// stiff sheets"). So cloth is held on obstacles that rub as where nothing else touches it.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
 /// moments_of  [9 * (bodies + 1)] likewise
+/// held        how hard obstacles hold cloth, as in missing_motion; 0: not at all
 /// are_led     [bodies + 1] 1: the next substep starts from where the body is led as a whole, and
 ///             so from what has held it up as a whole, alike at all of its vertices; else 0
 /// bodies      [vertices] which each belongs to; the last one: to none
@@ -405,12 +410,14 @@ WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* devi
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
             WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
             WEFT_GLOBAL const float* are_led, WEFT_GLOBAL const int* bodies, float inverse_h,
-            int body_count) {
+            float held, int body_count) {
     const integer body = load_index(bodies, i);
     const real3 x = xyz(load4(positions, i));
-    const real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
-    shift_vertex(positions, deviations, velocities, i, way, inverse_h);
     const real is_led = gather(are_led, body);
+    const real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
+    const real pushed = gather4(moments_of + 6 * (body_count + 1), body).w;
+    const real hold = pushed * splat(held) * (splat(1.0f) - is_led);
+    shift_vertex(positions, deviations, velocities, i, scale(way, part_led(hold)), inverse_h);
     if (!any_item(is_led > splat(0.0f))) return;
     const real4 own = load4(deviations, i);
     const real3 whole_body = deviation_of_body(motions, moments_of, body, body_count);

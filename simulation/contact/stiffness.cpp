@@ -23,6 +23,10 @@ constexpr double kHardness = 100.0;
 /// are").
 constexpr double kBetweenSheets = 0.125;
 
+/// And of all that touches cloth, no more than so many m / h^2 (docs/measurements.md, "Solids on
+/// stiff sheets").
+constexpr double kOfCloth = 1000.0;
+
 /// [vertices] how hard elements hold each [N/m].
 std::vector<double> held_by_elements(const Model& model) {
     const auto positions = model.positions->span();
@@ -42,18 +46,20 @@ std::vector<double> held_by_elements(const Model& model) {
 
 ContactStiffness contact_stiffness(const Model& model) {
     const std::vector<double> held = held_by_elements(model);
-    const auto with = [&](std::size_t v, double part) {
-        const double sum = model.masses[v] / (model.h * model.h) + part * held[v];
+    ContactStiffness stiffness{std::vector<float>(held.size()),
+                               std::vector<float>(held.size(), kNoSheet)};
+    const auto with = [&](std::size_t v, double elements) {
+        const double sum = model.masses[v] / (model.h * model.h) + elements;
         return static_cast<float>((*model.positions)[v].w > 0.0f ? sum : kHeld);
     };
-    ContactStiffness stiffness;
-    for (std::size_t v = 0; v < held.size(); ++v) stiffness.of_all.push_back(with(v, 1.0));
-    stiffness.between_sheets.assign(held.size(), kNoSheet);
+    for (std::size_t v = 0; v < held.size(); ++v) stiffness.of_all[v] = with(v, held[v]);
     for (const BodyRange& body : model.bodies) {
         if (body.kind != "cloth") continue;
         for (int i = 0; i < body.vertex_count; ++i) {
             const auto v = static_cast<std::size_t>(model.vertex(body.vertex(i)));
-            stiffness.between_sheets[v] = with(v, kBetweenSheets);
+            const double most = kOfCloth * model.masses[v] / (model.h * model.h);
+            stiffness.of_all[v] = with(v, std::min(held[v], most));
+            stiffness.between_sheets[v] = with(v, std::min(kBetweenSheets * held[v], most));
         }
     }
     return stiffness;

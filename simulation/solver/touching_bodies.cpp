@@ -315,9 +315,10 @@ Launch TouchingBodies::lead(float less) {
 }
 
 Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
+    const bool is_held = groups_ && rubbing_of(model).friction > 0.0;
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
                   *model.velocities, motions_, strains_, moments_.moments(), are_led_, body_of_,
-                  static_cast<float>(1.0 / model.h), body_count());
+                  static_cast<float>(1.0 / model.h), is_held ? held_ : 0.0f, body_count());
 }
 
 /// What tells where bodies have got to.

@@ -285,7 +285,7 @@ void move_case(KernelCase& c) {
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     auto& are_led = add_flags(c, "are_led", kBodies + 1);
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      strains, moments, are_led, bodies, 240.0f, kBodies);
+                      strains, moments, are_led, bodies, 240.0f, 50.0f, kBodies);
 }
 
 /// Of solids' vertices and of others, in groups that give way and in others.
