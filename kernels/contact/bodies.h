@@ -398,10 +398,12 @@ WEFT_INLINE real3 deviation_of_body(WEFT_GLOBAL const float4* motions,
 /// how they rub cloth. A light sheet between a solid and the ground went as far as the solid's
 /// friction led it, was brought back by the ground's in the iterations that followed, and had been
 /// strained by both: the solid was thrown up by tens of joules (docs/measurements.md, "Solids on
-/// stiff sheets"). So cloth is held on obstacles that rub as where nothing else touches it.
+/// stiff sheets"). So in groups with solids it is held on obstacles as where it lies alone.
 /// positions, deviations, velocities, inverse_h  as there
 /// motions, strains  [2 * (bodies + 1)] the last one is zero
 /// moments_of  [9 * (bodies + 1)] likewise
+/// group_motions, leaders  as solve_groups leaves the first, of whole groups, and as in add_groups:
+///             not read unless held > 0
 /// held        how hard obstacles hold cloth, as in missing_motion; 0: not at all
 /// are_led     [bodies + 1] 1: the next substep starts from where the body is led as a whole, and
 ///             so from what has held it up as a whole, alike at all of its vertices; else 0
@@ -409,15 +411,24 @@ WEFT_INLINE real3 deviation_of_body(WEFT_GLOBAL const float4* motions,
 WEFT_KERNEL(move_bodies, WEFT_GLOBAL float4* positions, WEFT_GLOBAL float4* deviations,
             WEFT_GLOBAL float4* velocities, WEFT_GLOBAL const float4* motions,
             WEFT_GLOBAL const float4* strains, WEFT_GLOBAL const float4* moments_of,
-            WEFT_GLOBAL const float* are_led, WEFT_GLOBAL const int* bodies, float inverse_h,
-            float held, int body_count) {
+            WEFT_GLOBAL const float* are_led, WEFT_GLOBAL const int* bodies,
+            WEFT_GLOBAL const float4* group_motions, WEFT_GLOBAL const int* leaders,
+            float inverse_h, float held, int level_count, int body_count, int substep) {
     const integer body = load_index(bodies, i);
     const real3 x = xyz(load4(positions, i));
     const real is_led = gather(are_led, body);
-    const real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
-    const real pushed = gather4(moments_of + 6 * (body_count + 1), body).w;
-    const real hold = pushed * splat(held) * (splat(1.0f) - is_led);
-    shift_vertex(positions, deviations, velocities, i, scale(way, part_led(hold)), inverse_h);
+    real3 way = way_with_body(motions, strains, moments_of, x, body, body_count);
+    if (held > 0.0f) {
+        const whole number = load_whole(bodies, i);
+        const whole own = number < splat_whole(body_count) ? number : splat_whole(0);
+        WEFT_GLOBAL const int* now = leaders + level_count * substep * body_count;
+        const integer leader = address(gather_whole(now, address(own)));
+        const real beside_solids = gather4(group_motions + 2 * body_count, leader).w;
+        const real pushed = gather4(moments_of + 6 * (body_count + 1), body).w;
+        const real hold = pushed * splat(held) * beside_solids * (splat(1.0f) - is_led);
+        way = scale(way, part_led(hold));
+    }
+    shift_vertex(positions, deviations, velocities, i, way, inverse_h);
     if (!any_item(is_led > splat(0.0f))) return;
     const real4 own = load4(deviations, i);
     const real3 whole_body = deviation_of_body(motions, moments_of, body, body_count);

@@ -34,13 +34,16 @@ WEFT_INLINE integer body_in_group(WEFT_GLOBAL const int* members, whole first, m
 /// counts        [substeps * level_count * bodies] how many there are; 0 for all but the first one
 ///               of a group
 /// members       [substeps * level_count * bodies] groups side by side
-/// group_motions [3 * bodies] written, column-major: of the groups that begin there; about xyz [m]
+/// are_led       [bodies + 1] 1: a solid; see move_bodies
+/// group_motions [3 * bodies] written, column-major: of the groups that begin there; about xyz [m],
+///               and w: 1 where a solid is among them, else 0
 /// level         of groups
 WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
                    WEFT_GLOBAL const float4* moments_of, WEFT_GLOBAL const float4* motions,
                    WEFT_GLOBAL const int* firsts, WEFT_GLOBAL const int* counts,
-                   WEFT_GLOBAL const int* members, WEFT_GLOBAL float4* group_motions, int level,
-                   int level_count, int body_count, int substep) {
+                   WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* are_led,
+                   WEFT_GLOBAL float4* group_motions, int level, int level_count, int body_count,
+                   int substep) {
     const real zero = splat(0.0f);
     const int table = level_count * substep + level;
     const item now = column(i, body_count, table);
@@ -50,12 +53,14 @@ WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
     WEFT_GLOBAL const int* own_members = members + table * body_count;
     real3 centre = no_motion().shift;
     real mass = zero;
+    real has_solid = zero;
     for (int k = 0; k < longest; ++k) {
         const mask on = splat_whole(k) < count;
         const integer body = body_in_group(own_members, first, on, k);
         const real own = on ? gather4(rests + 6 * body_count, body).w : zero;
         centre = add_scaled(centre, gather_centre(moments_of, motions, body), own);
         mass = mass + own;
+        has_solid = on ? larger(has_solid, gather(are_led, body)) : has_solid;
     }
     centre = scale(centre, splat(1.0f) / divisor(mass));
 
@@ -75,7 +80,7 @@ WEFT_NARROW_KERNEL(solve_groups, WEFT_GLOBAL const float4* rests,
         form = add_scaled_sym6(form, form_from(own_form, lever), own);
     }
     store_motion(group_motions, body_count, i, solve_sym6(form, left));
-    store4(group_motions, column(i, body_count, 2), with_w(centre, zero));
+    store4(group_motions, column(i, body_count, 2), with_w(centre, has_solid));
 }
 
 /// Adds what its group does to the motion of each body that touches another one, which then is as

@@ -136,8 +136,8 @@ std::vector<Launch> TouchingBodies::solve(int has_moved, int level) {
                                         bodies_.most_runs(), lag_count_, body_count(), held_)};
     if (!groups_) return launches;
     launches.push_back(launch(kernels::solve_groups, all(), rests_, moments_.moments(), motions_,
-                              groups_->firsts, groups_->counts, groups_->members, group_motions_,
-                              level, level_count(), body_count(), kInstance));
+                              groups_->firsts, groups_->counts, groups_->members, are_led_,
+                              group_motions_, level, level_count(), body_count(), kInstance));
     launches.push_back(launch(kernels::add_groups, all(), motions_, bearings_, masses_, rests_,
                               moments_.moments(), group_motions_, groups_->leaders, is_rubbed_,
                               level, level_count(), body_count(), kInstance));
@@ -318,7 +318,9 @@ Launch TouchingBodies::move(Model& model, Buffer<float4>& deviations) {
     const bool is_held = groups_ && rubbing_of(model).friction > 0.0;
     return launch(kernels::move_bodies, model_.vertices(), *model.positions, deviations,
                   *model.velocities, motions_, strains_, moments_.moments(), are_led_, body_of_,
-                  static_cast<float>(1.0 / model.h), is_held ? held_ : 0.0f, body_count());
+                  group_motions_, groups_ ? groups_->leaders : body_of_,
+                  static_cast<float>(1.0 / model.h), is_held ? held_ : 0.0f, level_count(),
+                  body_count(), kInstance);
 }
 
 /// What tells where bodies have got to.
@@ -326,6 +328,7 @@ void TouchingBodies::add_motion_accesses(Step::Adding& task) {
     moments_.add_reads(task);
     task.reads(motions_, 0, static_cast<int>(motions_.count()));
     task.reads(strains_, 0, static_cast<int>(strains_.count()));
+    task.reads(group_motions_, 0, static_cast<int>(group_motions_.count()));
 }
 
 }  // namespace weft

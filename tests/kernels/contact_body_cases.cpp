@@ -256,9 +256,11 @@ void groups_case(KernelCase& c) {
         counts[b] = c.random.integer(0, std::min(5, c.items - firsts[b]));
     }
     auto& members = add_indices(c, "members", kTables * c.items, c.items);
+    auto& are_led = add_flags(c, "are_led", c.items + 1);
     auto& group_motions = c.add<float4>("group_motions", 3 * c.items);
-    c.launch = launch(kernels::solve_groups, c.segments, rests, moments, motions, firsts, counts,
-                      members, group_motions, random_level(c), kLevels, c.items, kInstance);
+    c.launch =
+        launch(kernels::solve_groups, c.segments, rests, moments, motions, firsts, counts, members,
+               are_led, group_motions, random_level(c), kLevels, c.items, kInstance);
 }
 
 void add_groups_case(KernelCase& c) {
@@ -284,8 +286,15 @@ void move_case(KernelCase& c) {
     auto& moments = add_moments(c, kBodies);
     auto& bodies = add_indices(c, "bodies", c.items, kBodies + 1);
     auto& are_led = add_flags(c, "are_led", kBodies + 1);
+    auto& group_motions = add_points(c, "group_motions", 3 * kBodies);
+    auto& leaders = add_indices(c, "leaders", kTables * kBodies, kBodies);
+    for (int b = 0; b < kBodies; ++b) {  // beside solids, and not
+        group_motions[at(2 * kBodies + b)].w = static_cast<float>(b % 2);
+        moments[at(6 * (kBodies + 1) + b)].w = c.random.real(0.0f, 1.0f);
+    }
     c.launch = launch(kernels::move_bodies, c.segments, positions, deviations, velocities, motions,
-                      strains, moments, are_led, bodies, 240.0f, 50.0f, kBodies);
+                      strains, moments, are_led, bodies, group_motions, leaders, 240.0f, 50.0f,
+                      kLevels, kBodies, kInstance);
 }
 
 /// Of solids' vertices and of others, in groups that give way and in others.
