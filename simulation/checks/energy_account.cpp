@@ -27,6 +27,9 @@ constexpr double kTornStrain = 1.0;  ///< of one edge
 // What contacts have stored is seen as little in edges as it has to do with them.
 constexpr double kMostInContacts = 2.0;
 constexpr double kMostInTies = 10.0;  ///< likewise
+// What strain gives back is motion. Of that, this much of the most that there was to be had may be
+// from nowhere.
+constexpr double kMostGainedInMotion = 0.1;
 // And what no such sweep does.
 constexpr double kExplodingStrain = 1000.0;
 
@@ -91,18 +94,21 @@ double EnergyAccount::energy_of_ties(const Model& model) const {
 EnergyAccount::Entry EnergyAccount::with_frame(double time, const OutsideWork& outside,
                                                const Energies& end, double found) const {
     if (time < closed_) return {end.total(), {}, end, false};
-    Entry entry{last_.start + found,   last_.outside,      end,           true,
-                last_.most_dissipated, last_.lost_at_once, last_.forgiven};
+    Entry entry = last_;
+    entry.start += found;
+    entry.energies = end;
+    entry.is_known = true;
     if (std::isinf(last_.outside.doubt) && std::isfinite(outside.doubt)) {
         entry.start = last_.energies.total() + found;
         entry.outside = {};
-        entry.most_dissipated = entry.lost_at_once = entry.forgiven = 0.0;
+        entry.most_dissipated = entry.lost_at_once = entry.forgiven = entry.most_had = 0.0;
     }
     entry.outside.work += outside.work;
     entry.outside.doubt += outside.doubt;
     const double lost = entry.dissipated() - entry.most_dissipated;
     entry.lost_at_once += std::clamp(lost, 0.0, std::max(found, 0.0));
     entry.most_dissipated = std::max(entry.most_dissipated, entry.dissipated());
+    entry.most_had = std::max(entry.most_had, entry.left());
     return entry;
 }
 
@@ -111,11 +117,18 @@ double EnergyAccount::Entry::gained() const {
     return std::max(most_dissipated - dissipated() - outside.doubt, 0.0);
 }
 
+double EnergyAccount::Entry::gained_in_motion() const {
+    return gained() - energies.strain() - energies.contact.value_or(0.0);
+}
+
+double EnergyAccount::Entry::left() const {
+    return start - lost_at_once + outside.work + outside.doubt - energies.gravity;
+}
+
 std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain& strain,
                                                const Model& model) const {
     if (!entry.is_known) return std::nullopt;
-    const double outside = entry.outside.work + entry.outside.doubt;
-    const double left = entry.start - entry.lost_at_once + outside - entry.energies.gravity;
+    const double left = entry.left();
     const double had = std::max(left, 0.0);
     const double lifted = std::max(-left, 0.0);
     const double motion = entry.energies.kinetic;
@@ -123,9 +136,11 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double pressed = entry.energies.contact.value_or(0.0);
     const double most = most_strain(model, strain);
     const double in_solids = energy_of_solids(model, entry.energies);
+    const double gained = entry.gained_in_motion();
+    const double most_gained = kMostGainedInMotion * entry.most_had + small_;
     const auto is_fine = [&](double rounding) {
         const double enough = had + small_ + rounding;
-        return lifted <= small_lift_ + rounding && motion <= kMostMotion * enough &&
+        return lifted <= small_lift_ + rounding && !(gained > most_gained + rounding) && motion <= kMostMotion * enough &&
                strained <= most * enough && in_solids <= kMostHiddenStrainOfSolids * enough &&
                pressed <= kMostInContacts * enough &&
                (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
@@ -144,10 +159,15 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     if (nothing_is_wrong(rounding)) return std::nullopt;
     const std::string in_contacts =
         pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "";
+    const std::string comes_back =
+        gained > most_gained + rounding
+            ? fmt::format(", and {:.3g} J of motion or height are again there that were gone", gained)
+            : "";
     return EnergyAlarm{
         fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
-                    "{:.3g} % RMS), {}",
-                    motion, strained, in_contacts, 100.0 * strain.rms, there_was(had, lifted)),
+                    "{:.3g} % RMS), {}{}",
+                    motion, strained, in_contacts, 100.0 * strain.rms, there_was(had, lifted),
+                    comes_back),
         explodes(rounding)};
 }
 
@@ -156,19 +176,20 @@ void EnergyAccount::forgive(bool is_explosion) {
     last_.forgiven = is_explosion ? 0.0 : last_.forgiven + made;
     last_.start = last_.energies.total();
     last_.outside = {};
-    last_.most_dissipated = last_.lost_at_once = 0.0;
+    last_.most_dissipated = last_.lost_at_once = last_.most_had = 0.0;
 }
 
-std::array<double, 7> EnergyAccount::save() const {
+std::array<double, 8> EnergyAccount::save() const {
     return {last_.start,           last_.outside.work,
             last_.outside.doubt,   last_.energies.contact.value_or(0.0),
             last_.most_dissipated, last_.lost_at_once,
-            last_.forgiven};
+            last_.forgiven,        last_.most_had};
 }
 
-void EnergyAccount::restore(const std::array<double, 7>& saved, Energies now) {
+void EnergyAccount::restore(const std::array<double, 8>& saved, Energies now) {
     if (now.contact) now.contact = saved[3];
-    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true, saved[4], saved[5], saved[6]};
+    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true,
+             saved[4], saved[5],             saved[6],       saved[7]};
 }
 
 }  // namespace weft

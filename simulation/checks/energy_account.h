@@ -33,10 +33,15 @@ public:
         double most_dissipated = 0.0;  ///< [J] that was so far
         double lost_at_once = 0.0;     ///< [J] of what was found, by the frame that found it
         double forgiven = 0.0;         ///< [J] that came from nowhere, and counts as had since
+        double most_had = 0.0;         ///< [J] that could be in motion and strain so far
 
         double dissipated() const { return start + outside.work - energies.total(); }
         /// What has come from nowhere [J]: nothing that is dissipated comes back. NaN: not known
         double gained() const;
+        /// What of it is in motion or height, even if all strain is from nowhere [J].
+        double gained_in_motion() const;
+        /// What can be in motion and strain, at this height [J]; negative where it is too high.
+        double left() const;
     };
 
     /// start: of the state that the run begins with
@@ -56,9 +61,9 @@ public:
     void forgive(bool is_explosion);
 
     /// The numbers that it carries, for checkpoints.
-    std::array<double, 7> save() const;
+    std::array<double, 8> save() const;
     /// now: of the state, without what contacts have stored
-    void restore(const std::array<double, 7>& saved, Energies now);
+    void restore(const std::array<double, 8>& saved, Energies now);
 
 private:
     double closed_;  ///< [s] when the last seam is: until then the ends of frames tell too little

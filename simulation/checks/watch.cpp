@@ -67,7 +67,7 @@ void Watch::accept(const Look& look, bool forgives) {
 }
 
 void Watch::restart(const Model& model, double time,
-                    const std::optional<std::array<double, 7>>& saved) {
+                    const std::optional<std::array<double, 8>>& saved) {
     knows_contacts_ = saved.has_value();
     const Energies now = energies_of(model, time);
     if (saved) {

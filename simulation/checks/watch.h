@@ -49,7 +49,7 @@ public:
 
     /// Goes on from another state, at a time [s], as its run's account stood there (none: anew).
     void restart(const Model& model, double time,
-                 const std::optional<std::array<double, 7>>& saved = std::nullopt);
+                 const std::optional<std::array<double, 8>>& saved = std::nullopt);
     /// The next frame's contacts store more or less than those of the last one, in the same state.
     void expect_other_contacts() { knows_contacts_ = false; }
 

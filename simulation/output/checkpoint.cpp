@@ -20,7 +20,7 @@ namespace {
 
 // Text lines: format, origin as JSON, frame, substeps, iterations and what is known of the
 // tolerance, the account's bits, sizes of the report and the buffers; then their bytes, then kEnd.
-constexpr const char* kFormat = "weft-checkpoint 7";
+constexpr const char* kFormat = "weft-checkpoint 8";
 constexpr const char* kEnd = "end";
 
 template <class Bytes>

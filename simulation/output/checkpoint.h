@@ -19,7 +19,7 @@ struct Checkpoint {
     int iterations = 0;                           ///< of each step
     int failed_iterations = 0;                    ///< too few for the tolerance, as was seen
     int tolerance_told = 0;                       ///< 1: the run has warned of it, as it does once
-    std::array<double, 7> account{};              ///< as EnergyAccount::save() gives it
+    std::array<double, 8> account{};              ///< as EnergyAccount::save() gives it
     std::vector<std::vector<std::byte>> buffers;  ///< as Simulation::checkpoint() gives them
     std::vector<std::uint8_t> report;             ///< as SummaryBuilder::save() gives it
 };

@@ -122,6 +122,35 @@ TEST(EnergyAccount, CountsWhatIsGained) {
     EXPECT_NEAR(account.last().dissipated(), 2.0 * weight, 1e-6);
 }
 
+/// Strain of that size would be excused, and so would motion: the sheet fell by a metre. But what
+/// it lost in that is gone.
+TEST(EnergyAccount, TellsOfMotionThatComesBack) {
+    ManualRun sheet(loose_sheet());
+    Model& model = *sheet.model;
+    EnergyAccount account(model, energies_of(model));
+    const auto alarm_at = [&](float height, float longer) {
+        for (float4& x : model.positions->span()) {
+            x.x *= longer;
+            x.y = height;
+        }
+        const Energies energies = energies_of(model);
+        for (float4& x : model.positions->span()) x.x /= longer;
+        account.accept(account.with_frame(0.0, {}, energies));
+        return account.look(account.last(), {}, model);
+    };
+    EXPECT_FALSE(alarm_at(-1.0f, 1.0f));
+    EXPECT_FALSE(alarm_at(-1.0f, 1.01f)) << "it has strain that does not show";
+    EXPECT_GT(account.last().gained(), 0.8);
+    EXPECT_FALSE(alarm_at(-0.9f, 1.0f)) << "up to a tenth";
+    const auto alarm = alarm_at(-0.75f, 1.01f);
+    ASSERT_TRUE(alarm);
+    EXPECT_FALSE(alarm->is_explosion);
+    EXPECT_NE(alarm->what.find("0.49 J of motion or height are again there"), std::string::npos)
+        << alarm->what;
+    account.forgive(false);
+    EXPECT_FALSE(alarm_at(-0.75f, 1.0f));
+}
+
 /// What was warned of is there for other warnings, and not for what explodes step by step.
 TEST(EnergyAccount, WhatCreepsUpExplodesInTheEnd) {
     for (const bool was_explosion : {false, true}) {
