@@ -6,7 +6,9 @@
 // would take many more pushes than there are iterations until these add up to what bears it. The
 // body would seem to lack momentum, and be led into what bears it, by its own step. So behind the
 // last iteration x~ of what has been pushed is led on to where nothing presses the vertex into the
-// obstacle any more.
+// obstacle any more. Not of what the planes of triangles have pushed (obstacles/narrow.h): these
+// press between vertices, and what stiff elements pass on to each of them differs by far more than
+// all that bears the body. Rounds know the place (contact/resting.h).
 
 #include "kernels/descent/vertex_system.h"
 #include "kernels/lanes.h"
@@ -33,10 +35,12 @@ WEFT_KERNEL(lead_by_reactions, WEFT_GLOBAL const float4* positions,
     const integer vertex = load_index(vertices, i);
     const real4 target = gather4(targets, vertex);
     const real4 x = gather4(positions, vertex);
-    const mask was_pushed = both(target.w * gather(borne, vertex) > zero, x.w > zero);
+    const real4 pressed = gather4(pressing, vertex);
+    const mask was_pushed =
+        both(both(target.w * gather(borne, vertex) > zero, x.w > zero), pressed.w == zero);
     if (!any_item(was_pushed)) return;
     const real3 all = subtract(xyz(target), xyz(gather4(starts, vertex)));
-    const real3 push = pushed_along(all, xyz(gather4(pressing, vertex)));
+    const real3 push = pushed_along(all, xyz(pressed));
     const real length = length3(push);
     // A few roundings of a coordinate have no direction.
     const mask is_pushed = both(was_pushed, length > splat(2.5e-7f) * length3(xyz(x)));

@@ -34,6 +34,7 @@
 // obstacles rub single vertices of cloth is known from iterations, and nothing is added to that.
 
 #include "kernels/bodies/runs.h"
+#include "kernels/choice.h"
 #include "kernels/contact/codes.h"
 #include "kernels/contact/rows.h"
 #include "kernels/obstacles/seen.h"
@@ -84,8 +85,33 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
     store4_where(is_solid, seen_starts, i, own);
 }
 
+/// Where a vertex, or a triangle around it, comes nearest to an obstacle.
+typedef struct {
+    real3 normal;  ///< of length 1, outwards
+    real3 point;   ///< [m]
+    real gap;      ///< [m]
+} resting_place;
+
+/// meetings  of this obstacle, as find_obstacle_meetings leaves them (obstacles/narrow.h); read
+///           where has_meetings and of solids
+WEFT_INLINE resting_place place_on(WEFT_GLOBAL const float4* o, real3 before, real3 x,
+                                   WEFT_GLOBAL const float4* meetings, int has_meetings,
+                                   real is_solid, integer vertex, int vertex_count) {
+    const nearness near = seen_from(o, before, x);
+    resting_place place = {apply_back(o, near.normal), x, near.distance - splat(o[7].x)};
+    if (!has_meetings) return place;
+    const real4 met = gather4(meetings, vertex);
+    const real3 point = xyz(gather4(meetings + vertex_count, vertex));
+    const mask is_nearer = both(is_solid > splat(0.0f), met.w < place.gap);
+    place.normal = either(is_nearer, xyz(met), place.normal);
+    place.point = either(is_nearer, point, place.point);
+    place.gap = is_nearer ? met.w : place.gap;
+    return place;
+}
+
 /// Adds an entry for each vertex of a column's body that is near an obstacle, behind the contacts
-/// of the column (pushes.h).
+/// of the column (pushes.h). Where a triangle of a solid lies on a narrow obstacle, each of its
+/// corners has one, at the place where the triangle does, with what the corner bears.
 /// positions    [vertices] xyz, w = 1/mass [1/kg]
 /// previous     [vertices] xyz at the substep's start [m]
 /// seen_targets [vertices] as see_targets leaves them; starts: as there
@@ -94,6 +120,8 @@ WEFT_KERNEL(see_targets, WEFT_GLOBAL const float4* targets, WEFT_GLOBAL const fl
 /// borne        [vertices] 1: of a body that lies on obstacles as a whole; else 0
 /// solid        [vertices] as in see_targets: what obstacles rub
 /// hardness     [vertices] k [N/m]
+/// meetings     [2 * obstacle_count * vertex_count] as find_obstacle_meetings leaves them; not read
+///              without has_meetings
 /// gradients    [3 * vertex_count] column-major: g [N]; not read without has_gradients
 /// push_rows to presses  as collect_pushes leaves them; here of other_points w: what is known [N]
 /// reach        [m] what is farther away has no entry, unless it may come so far: twice as far as it
@@ -104,15 +132,15 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
                    WEFT_GLOBAL const float4* starts, WEFT_GLOBAL const float4* kept,
                    WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL const float* borne,
                    WEFT_GLOBAL const float* solid, WEFT_GLOBAL const float* hardness,
-                   WEFT_GLOBAL const float* gradients, WEFT_GLOBAL const int* members,
-                   WEFT_GLOBAL const float* shares, WEFT_GLOBAL const int* column_rows,
-                   WEFT_GLOBAL const int* push_rows, WEFT_GLOBAL int* push_counts,
-                   WEFT_GLOBAL int* push_needs, WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides,
-                   WEFT_GLOBAL float4* slips, WEFT_GLOBAL float4* forces,
-                   WEFT_GLOBAL float4* points, WEFT_GLOBAL float4* other_points,
-                   WEFT_GLOBAL float* presses, int column_count, int vertex_count, int body_count,
-                   int obstacle_count, float reach, float inverse_h2, int has_gradients,
-                   int instance) {
+                   WEFT_GLOBAL const float4* meetings, WEFT_GLOBAL const float* gradients,
+                   WEFT_GLOBAL const int* members, WEFT_GLOBAL const float* shares,
+                   WEFT_GLOBAL const int* column_rows, WEFT_GLOBAL const int* push_rows,
+                   WEFT_GLOBAL int* push_counts, WEFT_GLOBAL int* push_needs,
+                   WEFT_GLOBAL int* codes, WEFT_GLOBAL float4* sides, WEFT_GLOBAL float4* slips,
+                   WEFT_GLOBAL float4* forces, WEFT_GLOBAL float4* points,
+                   WEFT_GLOBAL float4* other_points, WEFT_GLOBAL float* presses, int column_count,
+                   int vertex_count, int body_count, int obstacle_count, float reach,
+                   float inverse_h2, int has_meetings, int has_gradients, int instance) {
     const real zero = splat(0.0f);
     const real one = splat(1.0f);
     const whole push_start = load_whole(push_rows, i);
@@ -144,8 +172,10 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             const int number = place < 0 ? place + obstacle_count : place;
             WEFT_GLOBAL const float4* o =
                 obstacles + WEFT_OBSTACLE_ROWS * (instance * obstacle_count + number);
-            const nearness near = seen_from(o, before, xyz(x));
-            const real gap = near.distance - splat(o[7].x);
+            const resting_place at = place_on(
+                o, before, xyz(x), meetings + (has_meetings ? 2 * number * vertex_count : 0),
+                has_meetings, is_solid, vertex, vertex_count);
+            const real gap = at.gap;
             if (place < 0) {
                 least = smaller(least, gap);
                 continue;
@@ -155,7 +185,7 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             const mask bears =
                 both(is_near, gap < larger(least, zero) + splat(WEFT_RESTING_TOUCH * reach));
             // Of several that push as one, the first ones push.
-            const real3 normal = apply_back(o, near.normal);
+            const real3 normal = at.normal;
             const real way = bears ? larger(dot3(led, normal), zero) : zero;
             led = add_scaled(led, normal, -way);
             const real known = way * inertia;
@@ -172,8 +202,8 @@ WEFT_NARROW_KERNEL(collect_resting, WEFT_GLOBAL const float4* positions,
             scatter4_where(fits, sides, entry, with_w(normal, gap - pressed));
             scatter4_where(fits, slips, entry, with_w(slip, one));
             scatter4_where(fits, forces, entry, force);
-            scatter4_where(fits, points, entry, with_w(xyz(x), friction));
-            scatter4_where(fits, other_points, entry, with_w(xyz(x), known));
+            scatter4_where(fits, points, entry, with_w(at.point, friction));
+            scatter4_where(fits, other_points, entry, with_w(at.point, known));
             scatter_where(fits, presses, entry, known);
             found = is_near ? found + splat_whole(1) : found;
         }

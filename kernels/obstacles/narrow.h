@@ -53,6 +53,75 @@ WEFT_INLINE real share_of_push(core_meeting m, real3 inverse_masses, real weight
     return depth * smaller(share, splat(WEFT_MOST_FOR_OTHERS));
 }
 
+/// A triangle around a vertex, seen from an obstacle.
+typedef struct {
+    real counts;  ///< 1: it may come as near as is asked for; else there is no more to know
+    core_meeting met;
+    real3 inverse_masses;  ///< of its corners [1/kg]
+    real weight;           ///< of the vertex where it is met
+    real3 point;           ///< there, in the world [m]
+} seen_triangle;
+
+/// k       which of those around the vertex
+/// is_on   where the vertex asks for it
+/// keep    from the core [m]
+/// beyond  [m] what is farther away by more than that does not count
+WEFT_INLINE seen_triangle see_triangle(WEFT_GLOBAL const float4* positions,
+                                       WEFT_GLOBAL const float4* previous,
+                                       WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* o,
+                                       int vertex_count, int k, mask is_on, real keep, real beyond,
+                                       item i) {
+    const real zero = splat(0.0f);
+    const whole none = splat_whole(0);
+    const float4 core = core_of(o);
+    const whole one = load_whole(corners, column(i, vertex_count, 3 * k));
+    const whole two = load_whole(corners, column(i, vertex_count, 3 * k + 1));
+    const whole three = load_whole(corners, column(i, vertex_count, 3 * k + 2));
+    const integer at_a = address(larger_whole(one, none));
+    const integer at_b = address(larger_whole(two, none));
+    const integer at_c = address(larger_whole(three, none));
+    const real4 x_a = gather4(positions, at_a);
+    const real4 x_b = gather4(positions, at_b);
+    const real4 x_c = gather4(positions, at_c);
+    const corners3 world = {xyz(x_a), xyz(x_b), xyz(x_c)};
+    const corners3 end = {apply(o, world.a), apply(o, world.b), apply(o, world.c)};
+    const corners3 start = {local_at_start(o, xyz(gather4(previous, at_a))),
+                            local_at_start(o, xyz(gather4(previous, at_b))),
+                            local_at_start(o, xyz(gather4(previous, at_c)))};
+    const real way = farthest_way(start, end);
+    const mask is_there = both(is_on, one >= none);
+    const mask may_meet =
+        both(is_there, nearest_corner(end, core) < keep + beyond + way + most_inside(end));
+    seen_triangle seen;
+    seen.counts = may_meet ? splat(1.0f) : zero;
+    seen.met.weights = seen.met.at = seen.met.normal = make3(zero, zero, zero);
+    seen.met.distance = seen.weight = zero;
+    seen.inverse_masses = make3(x_a.w, x_b.w, x_c.w);
+    seen.point = world.a;
+    if (!any_item(may_meet)) return seen;
+    const mask is_swept = both(may_meet, way * way >= splat(o[7].z));
+    seen.met = meet_core(end, core);
+    if (any_item(is_swept)) {
+        const core_meeting met = meet_core_on_way(start, end, seen.met, core, keep);
+        seen.met = choose_meeting(is_swept, met, seen.met);
+    }
+    const whole self = item_numbers(i);
+    const real3 weights = seen.met.weights;
+    seen.weight = self == one ? weights.x : self == two ? weights.y : weights.z;
+    seen.point = weighted3(world, weights);
+    return seen;
+}
+
+/// Whether triangles around a vertex may come that near to the obstacle.
+/// reach  [m] a vertex farther away has no triangle that meets it
+WEFT_INLINE mask may_have_met(WEFT_GLOBAL const float4* o, real4 x, real3 before, real near) {
+    const float4 core = core_of(o);
+    const real3 start = local_at_start(o, before);
+    const real3 end = apply(o, xyz(x));
+    const real away = length3(subtract(end, nearest_of_core(end, core)));
+    return both(x.w > splat(0.0f), away < near + length3(subtract(end, start)));
+}
+
 /// What triangles ask of a vertex that keep out of one obstacle. Of several the one that asks for
 /// the most counts.
 /// positions   [vertices] xyz [m], w = 1/mass [1/kg]
@@ -74,56 +143,26 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
                    int obstacle_count, int obstacle, int narrow, int substep) {
     WEFT_GLOBAL const float4* o =
         obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
-    const float4 core = core_of(o);
     const real zero = splat(0.0f);
-    const real keep = splat(core.w + o[7].x);
-    const whole none = splat_whole(0);
-    const whole self = item_numbers(i);
+    const real keep = splat(core_of(o).w + o[7].x);
     const real4 x = load4(positions, i);
-    const real3 own_start = local_at_start(o, xyz(load4(previous, i)));
-    const real3 own_end = apply(o, xyz(x));
-    const real away = length3(subtract(own_end, nearest_of_core(own_end, core)));
-    const real near = keep + splat(reach) + length3(subtract(own_end, own_start));
-
     real3 normal = make3(zero, zero, zero);
     real most = zero;
     real deepest = zero;
-    const mask is_near = both(x.w > zero, away < near);
+    const mask is_near = may_have_met(o, x, xyz(load4(previous, i)), keep + splat(reach));
     if (any_item(is_near)) {
         for (int k = 0; k < slots; ++k) {
-            const whole one = load_whole(corners, column(i, vertex_count, 3 * k));
-            const whole two = load_whole(corners, column(i, vertex_count, 3 * k + 1));
-            const whole three = load_whole(corners, column(i, vertex_count, 3 * k + 2));
-            if (largest_whole(one) < 0) break;
-            const integer at_a = address(larger_whole(one, none));
-            const integer at_b = address(larger_whole(two, none));
-            const integer at_c = address(larger_whole(three, none));
-            const real4 x_a = gather4(positions, at_a);
-            const real4 x_b = gather4(positions, at_b);
-            const real4 x_c = gather4(positions, at_c);
-            const corners3 end = {apply(o, xyz(x_a)), apply(o, xyz(x_b)), apply(o, xyz(x_c))};
-            const corners3 start = {local_at_start(o, xyz(gather4(previous, at_a))),
-                                    local_at_start(o, xyz(gather4(previous, at_b))),
-                                    local_at_start(o, xyz(gather4(previous, at_c)))};
-            const real way = farthest_way(start, end);
-            const mask is_there = both(is_near, one >= none);
-            const mask may_meet =
-                both(is_there, nearest_corner(end, core) < keep + way + most_inside(end));
+            if (largest_whole(load_whole(corners, column(i, vertex_count, 3 * k))) < 0) break;
+            const seen_triangle seen = see_triangle(positions, previous, corners, o, vertex_count,
+                                                    k, is_near, keep, zero, i);
+            const mask may_meet = seen.counts > zero;
             if (!any_item(may_meet)) continue;
-            const mask is_swept = both(may_meet, way * way >= splat(o[7].z));
-            core_meeting m = meet_core(end, core);
-            if (any_item(is_swept)) {
-                const core_meeting met = meet_core_on_way(start, end, m, core, keep);
-                m = choose_meeting(is_swept, met, m);
-            }
-            const real3 inverse_masses = make3(x_a.w, x_b.w, x_c.w);
-            const real weight = self == one ? m.weights.x : self == two ? m.weights.y : m.weights.z;
-            const real depth = keep - m.distance;
-            const real push = share_of_push(m, inverse_masses, weight, x.w, depth);
+            const real depth = keep - seen.met.distance;
+            const real push = share_of_push(seen.met, seen.inverse_masses, seen.weight, x.w, depth);
             const mask counts = both(may_meet, push > most);
             most = counts ? push : most;
-            normal = either(counts, m.normal, normal);
-            const mask is_here = both(may_meet, weight > splat(WEFT_HAS_PART));
+            normal = either(counts, seen.met.normal, normal);
+            const mask is_here = both(may_meet, seen.weight > splat(WEFT_HAS_PART));
             deepest = both(is_here, depth > deepest) ? depth : deepest;
         }
     }
@@ -134,6 +173,48 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
     if (notes == 0) return;
     const real before = substep == 0 ? zero : load(depths, column(i, vertex_count, narrow));
     store(depths, column(i, vertex_count, narrow), larger(deepest, before));
+}
+
+/// How near to an obstacle there is no meeting.
+#define WEFT_NO_MEETING 3e38f
+
+/// The triangle around each vertex that is nearest to one obstacle, where the vertex has a part in
+/// what it meets: to bodies as wholes that lie on narrow obstacles, it is there that these press
+/// (contact/resting.h).
+/// meetings  [2 * obstacle_count * vertex_count] column-major, written: xyz: the normal, w: the gap
+///           [m], WEFT_NO_MEETING where there is no triangle nearer than `beyond`; xyz: the point
+///           of the triangle [m]
+/// beyond    [m]
+/// others as in find_obstacle_planes
+WEFT_NARROW_KERNEL(find_obstacle_meetings, WEFT_GLOBAL const float4* positions,
+                   WEFT_GLOBAL const float4* previous, WEFT_GLOBAL const int* corners,
+                   WEFT_GLOBAL const float4* obstacles, WEFT_GLOBAL float4* meetings,
+                   int vertex_count, int slots, float reach, float beyond, int obstacle_count,
+                   int obstacle, int substep) {
+    WEFT_GLOBAL const float4* o =
+        obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
+    const real zero = splat(0.0f);
+    const real keep = splat(core_of(o).w + o[7].x);
+    const real4 x = load4(positions, i);
+    real3 normal = make3(zero, zero, zero);
+    real3 point = normal;
+    real least = splat(WEFT_NO_MEETING);
+    const mask is_near = may_have_met(o, x, xyz(load4(previous, i)), keep + splat(reach));
+    if (any_item(is_near)) {
+        for (int k = 0; k < slots; ++k) {
+            if (largest_whole(load_whole(corners, column(i, vertex_count, 3 * k))) < 0) break;
+            const seen_triangle seen = see_triangle(positions, previous, corners, o, vertex_count,
+                                                    k, is_near, keep, splat(beyond), i);
+            const real gap = seen.met.distance - keep;
+            const mask has_part = both(seen.counts > zero, seen.weight > splat(WEFT_HAS_PART));
+            const mask is_nearest = both(has_part, gap < least);
+            least = is_nearest ? gap : least;
+            normal = either(is_nearest, seen.met.normal, normal);
+            point = either(is_nearest, seen.point, point);
+        }
+    }
+    store4(meetings, column(i, vertex_count, 2 * obstacle), with_w(apply_back(o, normal), least));
+    store4(meetings, column(i, vertex_count, 2 * obstacle + 1), with_w(point, zero));
 }
 
 WEFT_KERNELS_END

@@ -140,8 +140,9 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
     const double most_gained = kMostGainedInMotion * entry.most_had + small_;
     const auto is_fine = [&](double rounding) {
         const double enough = had + small_ + rounding;
-        return lifted <= small_lift_ + rounding && !(gained > most_gained + rounding) && motion <= kMostMotion * enough &&
-               strained <= most * enough && in_solids <= kMostHiddenStrainOfSolids * enough &&
+        return lifted <= small_lift_ + rounding && !(gained > most_gained + rounding) &&
+               motion <= kMostMotion * enough && strained <= most * enough &&
+               in_solids <= kMostHiddenStrainOfSolids * enough &&
                pressed <= kMostInContacts * enough &&
                (strained <= kMostInTies * enough || energy_of_ties(model) <= kMostInTies * enough);
     };
@@ -161,7 +162,8 @@ std::optional<EnergyAlarm> EnergyAccount::look(const Entry& entry, const Strain&
         pressed > 0.0 ? fmt::format(", {:.3g} J of it in contacts", pressed) : "";
     const std::string comes_back =
         gained > most_gained + rounding
-            ? fmt::format(", and {:.3g} J of motion or height are again there that were gone", gained)
+            ? fmt::format(", and {:.3g} J of motion or height are again there that were gone",
+                          gained)
             : "";
     return EnergyAlarm{
         fmt::format("energy from nowhere: {:.3g} J of motion and {:.3g} J of strain{} (edges: "
@@ -188,8 +190,8 @@ std::array<double, 8> EnergyAccount::save() const {
 
 void EnergyAccount::restore(const std::array<double, 8>& saved, Energies now) {
     if (now.contact) now.contact = saved[3];
-    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true,
-             saved[4], saved[5],             saved[6],       saved[7]};
+    last_ = {saved[0], {saved[1], saved[2]}, std::move(now), true, saved[4], saved[5], saved[6],
+             saved[7]};
 }
 
 }  // namespace weft

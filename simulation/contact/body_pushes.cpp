@@ -49,11 +49,12 @@ Launch BodyPushes::collect(Buffer<float4>& positions, Buffer<float4>& targets, B
 Launch BodyPushes::collect_resting(const Resting& r) {
     return launch(kernels::collect_resting, columns_.by_strip, r.positions, r.previous,
                   r.seen_targets, r.starts, r.slips, r.obstacles, r.borne, r.solid, r.hardness,
-                  r.gradients ? *r.gradients : r.hardness, columns_.members, columns_.shares,
-                  columns_.rows, table_.rows(), table_.counts(), table_.needs(), codes_, sides_,
-                  slips_, forces_, points_, other_points_, presses_, columns_.count,
-                  static_cast<int>(r.hardness.count()), r.body_count, r.obstacle_count, r.reach,
-                  1.0f / h2_, r.gradients ? 1 : 0, kInstance);
+                  r.meetings ? *r.meetings : r.positions, r.gradients ? *r.gradients : r.hardness,
+                  columns_.members, columns_.shares, columns_.rows, table_.rows(), table_.counts(),
+                  table_.needs(), codes_, sides_, slips_, forces_, points_, other_points_, presses_,
+                  columns_.count, static_cast<int>(r.hardness.count()), r.body_count,
+                  r.obstacle_count, r.reach, 1.0f / h2_, r.meetings ? 1 : 0, r.gradients ? 1 : 0,
+                  kInstance);
 }
 
 Launch BodyPushes::collect_stops(const Stops& s) {

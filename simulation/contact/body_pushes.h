@@ -34,6 +34,7 @@ public:
     struct Resting {
         Buffer<float4>&positions, &previous, &seen_targets, &starts, &slips, &obstacles;
         Buffer<float>&borne, &solid, &hardness;
+        Buffer<float4>* meetings;  ///< null: no obstacle is narrow
         Buffer<float>* gradients;  ///< null: there are no solids
         int body_count, obstacle_count;
         float reach;

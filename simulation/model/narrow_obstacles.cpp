@@ -115,6 +115,25 @@ void NarrowObstacles::add_launches(std::vector<Launch>& launches, const Segments
     }
 }
 
+void NarrowObstacles::add_meeting_launches(std::vector<Launch>& launches, const Segments& vertices,
+                                           Buffer<float4>& positions, Buffer<float4>& previous,
+                                           Buffer<float4>& placements, Buffer<float4>& meetings,
+                                           float beyond) {
+    const auto obstacle_count = static_cast<int>(numbers_.size());
+    for (int o = 0; o < obstacle_count; ++o) {
+        if (number_of(o) < 0) continue;
+        launches.push_back(launch(kernels::find_obstacle_meetings, vertices, positions, previous,
+                                  corners_, placements, meetings, vertex_count_, slots_,
+                                  static_cast<float>(reach_), beyond, obstacle_count, o,
+                                  kInstance));
+    }
+}
+
+void NarrowObstacles::clear_meetings(Buffer<float4>& meetings) {
+    std::fill(meetings.data(), meetings.data() + meetings.count(),
+              float4{0, 0, 0, WEFT_NO_MEETING});
+}
+
 double NarrowObstacles::depth(const Obstacle& obstacle, const Frame& frame, int vertex,
                               std::span<const float4> positions) const {
     const float4 core = core_of(obstacle);

@@ -31,6 +31,16 @@ public:
                       Buffer<float4>& positions, Buffer<float4>& previous,
                       Buffer<float4>& placements, bool notes);
 
+    /// One launch per narrow obstacle, that finds the triangle around each vertex which is nearest
+    /// to it, where it is nearer than `beyond` [m].
+    /// meetings: [2 * obstacles * vertex_count()] column-major, as clear_meetings() leaves them,
+    /// once
+    void add_meeting_launches(std::vector<Launch>& launches, const Segments& vertices,
+                              Buffer<float4>& positions, Buffer<float4>& previous,
+                              Buffer<float4>& placements, Buffer<float4>& meetings, float beyond);
+    /// Fills them: of obstacles that are not narrow they stay like that.
+    static void clear_meetings(Buffer<float4>& meetings);
+
     /// Its number among narrow ones; -1: it is none.
     int number_of(int obstacle) const { return numbers_[static_cast<std::size_t>(obstacle)]; }
     int count() const { return count_; }

@@ -6,6 +6,7 @@
 #include "simulation/contact/body_pushes.h"
 #include "simulation/model/model.h"
 #include "simulation/solver/free_bodies.h"
+#include "simulation/solver/halo.h"
 
 namespace weft {
 
@@ -32,9 +33,9 @@ public:
     Launch see(Buffer<float4>& targets, const ObstaclePushes& obstacles);
     /// Behind the contacts of `pushes`. starts: x~ before obstacles push. gradients: as
     /// BodyPushes::Resting's
-    Launch collect(BodyPushes& pushes, Buffer<float4>& positions, Buffer<float4>& starts,
-                   Buffer<float>* gradients, int body_count);
-    /// What both need of vertices [first, last), besides the positions and the true x~.
+    std::vector<Launch> collect(BodyPushes& pushes, Buffer<float4>& positions,
+                                Buffer<float4>& starts, Buffer<float>* gradients, int body_count);
+    /// What both need of vertices [first, last), besides all positions and the true x~.
     void add_collect_accesses(Step::Adding& task, const ObstaclePushes& obstacles, int first,
                               int last);
 
@@ -55,6 +56,9 @@ private:
     Buffer<float4> targets_;  ///< [vertices]
     Buffer<float4> starts_;   ///< [vertices]
     Buffer<float4> slips_;    ///< [vertices]
+    Halo halo_;
+    /// [2 * obstacles * vertices]; null: no obstacle is narrow, or no body solid
+    std::unique_ptr<Buffer<float4>> meetings_;
 };
 
 }  // namespace weft

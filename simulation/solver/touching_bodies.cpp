@@ -194,9 +194,10 @@ std::vector<Launch> TouchingBodies::collect(Buffer<float4>& positions) {
     launches.push_back(pushes_.collect(positions, targets, body_of_, groups_));
     if (stops_) launches.push_back(stops_->collect(pushes_, positions, *targets_, body_count()));
     if (resting_)
-        launches.push_back(resting_->collect(pushes_, positions, *obstacles_.starts,
-                                             solids_ ? &solids_->gradients() : nullptr,
-                                             body_count()));
+        std::ranges::move(
+            resting_->collect(pushes_, positions, *obstacles_.starts,
+                              solids_ ? &solids_->gradients() : nullptr, body_count()),
+            std::back_inserter(launches));
     return launches;
 }
 

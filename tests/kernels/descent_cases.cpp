@@ -233,7 +233,7 @@ void start_case(KernelCase& c) {
     c.launch = launch(kernels::start_targets, c.segments, positions, targets);
 }
 
-/// Some have been pushed, hardly at all or not, and some are held.
+/// Some have been pushed, hardly at all or not, some by planes, and some are held.
 void reactions_case(KernelCase& c) {
     auto& positions = add_positions(c);
     auto& starts = add_positions(c);
@@ -249,7 +249,10 @@ void reactions_case(KernelCase& c) {
     auto& vertices = add_vertices(c);
     auto& sums = add_reals(c, "sums", 9 * c.items, -1.0f, 1.0f);
     auto& pressing = c.add<float4>("pressing", 2 * c.items);
-    for (float4& p : pressing.span()) p = c.random.point(0.1f);
+    for (float4& p : pressing.span()) {
+        p = c.random.point(0.1f);
+        p.w = c.random.integer(0, 3) == 0 ? 1.0f : 0.0f;
+    }
     c.launch = launch(kernels::lead_by_reactions, c.segments, positions, starts, targets, borne,
                       vertices, sums, pressing, c.items, 1e4f);
 }

@@ -135,11 +135,10 @@ void push_case(KernelCase& c, Buffer<float4>& obstacles) {
                           whole(c.random.integer(-1, 1))};
 }
 
+constexpr int kSlots = 4;
+
 /// Triangles between any vertices, up to four at each; some have no area.
-void planes_case(KernelCase& c) {
-    auto& obstacles = add_obstacles(c);
-    constexpr int kSlots = 4;
-    const Moved moved = add_moved(c);
+Buffer<int>& add_triangles(KernelCase& c) {
     auto& corners = c.add<int>("corners", 3 * kSlots * c.items);
     std::fill(corners.data(), corners.data() + corners.count(), -1);
     for (int v = 0; v < c.items; ++v) {
@@ -151,6 +150,13 @@ void planes_case(KernelCase& c) {
             corners[at(c.random.integer(0, 2))] = v;
         }
     }
+    return corners;
+}
+
+void planes_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    const Moved moved = add_moved(c);
+    auto& corners = add_triangles(c);
     auto& planes = c.add<float4>("planes", 2 * c.items);
     auto& depths = c.add<float>("depths", 2 * c.items);
     for (float& depth : depths.span()) depth = std::max(0.0f, c.random.real(-0.2f, 0.2f));
@@ -159,6 +165,17 @@ void planes_case(KernelCase& c) {
     c.launch = launch(kernels::find_obstacle_planes, c.segments, moved.positions, moved.previous,
                       corners, obstacles, planes, depths, notes, c.items, kSlots, reach, kObstacles,
                       1, 1, kInstance);
+}
+
+void meetings_case(KernelCase& c) {
+    auto& obstacles = add_obstacles(c);
+    const Moved moved = add_moved(c);
+    auto& corners = add_triangles(c);
+    auto& meetings = c.add<float4>("meetings", 2 * kObstacles * c.items);
+    const float reach = c.random.integer(0, 1) == 0 ? 0.2f : 5.0f;
+    c.launch = launch(kernels::find_obstacle_meetings, c.segments, moved.positions, moved.previous,
+                      corners, obstacles, meetings, c.items, kSlots, reach,
+                      c.random.real(0.0f, 0.5f), kObstacles, 1, kInstance);
 }
 
 /// Contact has taken back a quarter of the vertices.
@@ -239,6 +256,11 @@ void collect_resting_case(KernelCase& c) {
     auto& solid = add_flags(c, "solid");
     auto& hardness = c.add<float>("hardness", c.items);
     for (float& k : hardness.span()) k = c.random.real(1.0f, 1e4f);
+    auto& meetings = response::add_points(c, "meetings", 2 * kObstacles * c.items);
+    for (float4& meeting : meetings.span()) {
+        const bool is_one = c.random.integer(0, 2) > 0;
+        meeting.w = is_one ? c.random.real(-0.3f, 0.3f) : WEFT_NO_MEETING;
+    }
     auto& gradients = c.add<float>("gradients", 3 * c.items);
     for (float& g : gradients.span()) g = c.random.real(-1e3f, 1e3f);
     const int member_count = c.items + (kRows - 1) * WEFT_RUN_COLUMNS;
@@ -259,11 +281,12 @@ void collect_resting_case(KernelCase& c) {
     auto& points = c.add<float4>("points", rows.entries);
     auto& other_points = c.add<float4>("other_points", rows.entries);
     auto& presses = c.add<float>("presses", rows.entries);
-    c.launch = launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen,
-                      starts, kept, obstacles, borne, solid, hardness, gradients, members, shares,
-                      column_rows, rows.rows, rows.counts, needs, codes, sides, slips, forces,
-                      points, other_points, presses, c.items, c.items, response::kBodies,
-                      kObstacles, 0.1f, 1e4f, c.random.integer(0, 1), kInstance);
+    c.launch =
+        launch(kernels::collect_resting, c.segments, moved.positions, moved.previous, seen, starts,
+               kept, obstacles, borne, solid, hardness, meetings, gradients, members, shares,
+               column_rows, rows.rows, rows.counts, needs, codes, sides, slips, forces, points,
+               other_points, presses, c.items, c.items, response::kBodies, kObstacles, 0.1f, 1e4f,
+               c.random.integer(0, 1), c.random.integer(0, 1), kInstance);
 }
 
 void keep_resting_slips_case(KernelCase& c) {
@@ -290,6 +313,7 @@ void see_targets_case(KernelCase& c) {
 }
 
 const bool added = add_case("find_obstacle_planes", planes_case) &&
+                   add_case("find_obstacle_meetings", meetings_case) &&
                    add_case("find_inside", inside_case) && add_case("lead_cloth", reactions_case) &&
                    add_case("find_holds", holds_case) &&
                    add_case("see_targets", see_targets_case) &&
