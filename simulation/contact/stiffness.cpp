@@ -16,12 +16,12 @@ constexpr double kHeld = 1e30;
 /// sink, until the iterations push it out again.
 constexpr double kHardness = 100.0;
 
-/// How much of the stiffness of cloth along itself counts between sheets, which press each other
-/// across it. All of it is 10,000 times m / h^2 and more, which no few iterations solve: piles
-/// stored many times the energy of their fall and swelled. But what is taut presses by it: with a
-/// sixteenth, sheets on a needle find no place (docs/measurements.md, "How stiff contacts of sheets
-/// are").
-constexpr double kBetweenSheets = 0.125;
+/// How much of elements' stiffness counts between solids, and between sheets, which press each
+/// other across it. All of it is up to 10,000 times m / h^2 and more, which no few iterations
+/// solve: piles of sheets stored many times the energy of their fall and swelled, and towers of
+/// blocks trembled. But what is taut presses by it: with a sixteenth, sheets on a needle find no
+/// place (docs/measurements.md, "How stiff contacts of sheets are" and "of solids").
+constexpr double kOfElements = 0.125;
 
 /// And of all that touches cloth, no more than so many m / h^2 (docs/measurements.md, "Solids on
 /// stiff sheets").
@@ -42,35 +42,39 @@ std::vector<double> held_by_elements(const Model& model) {
     return sums;
 }
 
+/// m / h^2 and what elements hold the vertex with [N/m].
+float with_inertia(const Model& model, std::size_t vertex, double elements) {
+    const double sum = model.masses[vertex] / (model.h * model.h) + elements;
+    return static_cast<float>((*model.positions)[vertex].w > 0.0f ? sum : kHeld);
+}
+
 }  // namespace
 
 ContactStiffness contact_stiffness(const Model& model) {
     const std::vector<double> held = held_by_elements(model);
     ContactStiffness stiffness{std::vector<float>(held.size()),
                                std::vector<float>(held.size(), kNoSheet)};
-    const auto with = [&](std::size_t v, double elements) {
-        const double sum = model.masses[v] / (model.h * model.h) + elements;
-        return static_cast<float>((*model.positions)[v].w > 0.0f ? sum : kHeld);
-    };
-    for (std::size_t v = 0; v < held.size(); ++v) stiffness.of_all[v] = with(v, held[v]);
+    for (std::size_t v = 0; v < held.size(); ++v)
+        stiffness.of_all[v] = with_inertia(model, v, kOfElements * held[v]);
     for (const BodyRange& body : model.bodies) {
         if (body.kind != "cloth") continue;
         for (int i = 0; i < body.vertex_count; ++i) {
             const auto v = static_cast<std::size_t>(model.vertex(body.vertex(i)));
             const double most = kOfCloth * model.masses[v] / (model.h * model.h);
-            stiffness.of_all[v] = with(v, std::min(held[v], most));
-            stiffness.between_sheets[v] = with(v, std::min(kBetweenSheets * held[v], most));
+            stiffness.of_all[v] = with_inertia(model, v, std::min(held[v], most));
+            stiffness.between_sheets[v] =
+                with_inertia(model, v, std::min(kOfElements * held[v], most));
         }
     }
     return stiffness;
 }
 
 std::vector<float> hard_stiffness(const Model& model) {
-    const auto [of_all, between_sheets] = contact_stiffness(model);
-    std::vector<float> stiffness(of_all.size());
+    const std::vector<double> held = held_by_elements(model);
+    std::vector<float> stiffness = contact_stiffness(model).between_sheets;
     for (std::size_t v = 0; v < stiffness.size(); ++v) {
         const double inertia = model.masses[v] / (model.h * model.h);
-        stiffness[v] = between_sheets[v] == kNoSheet ? of_all[v] : between_sheets[v];
+        if (stiffness[v] == kNoSheet) stiffness[v] = with_inertia(model, v, held[v]);
         stiffness[v] += static_cast<float>(kHardness * inertia);
     }
     return stiffness;

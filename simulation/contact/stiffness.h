@@ -7,9 +7,10 @@
 
 namespace weft {
 
-/// What the stiffness of a vertex' contacts is measured by: m / h^2 and how much its elements hold
-/// it at rest. So contacts are as stiff as what they hold apart, and scenes with other masses and
-/// stiffnesses in one proportion behave alike. Held vertices have more than any other.
+/// What the stiffness of a vertex' contacts is measured by: m / h^2 and a part of how much its
+/// elements hold it at rest. So contacts are as stiff as what they hold apart, and scenes with
+/// other masses and stiffnesses in one proportion behave alike. Held vertices have more than any
+/// other.
 struct ContactStiffness {
     std::vector<float> of_all;          ///< [vertices] [N/m]
     std::vector<float> between_sheets;  ///< [vertices] of cloth with cloth [N/m]; or kNoSheet
@@ -19,7 +20,8 @@ constexpr float kNoSheet = -1.0f;
 
 ContactStiffness contact_stiffness(const Model& model);
 
-/// That, and so much more that to bodies as wholes what presses a vertex with it is hard [N/m].
+/// So much more that to bodies as wholes what presses a vertex with it is hard; of solids, whose
+/// corners crush each other when they land, by all that their elements hold [N/m].
 std::vector<float> hard_stiffness(const Model& model);
 
 /// The vertices where they are now [m].
