@@ -170,73 +170,73 @@ WEFT_INLINE nearness or_from_plane(nearness near, real3 x, real4 plane, float th
 /// told        WEFT_PUSH_...
 /// narrow      its number among obstacles that have planes; -1: it has none
 /// obstacle    which one
-#define WEFT_OBSTACLE_KERNELS(shape)                                                             \
-    /* Seen from the plane of the first contact on the way from `start` to `end`. */             \
-    WEFT_INLINE nearness met_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 end) {      \
-        const real3 way = subtract(end, start);                                                  \
-        real part = splat(0.0f);                                                                 \
-        nearness near = near_##shape(start, o[6]);                                               \
-        for (int k = 0; k < WEFT_SWEEP_STEPS; ++k) {                                             \
-            part = advance_to_contact(near, way, part, o[7].x);                                  \
-            near = near_##shape(add_scaled(start, way, part), o[6]);                             \
-        }                                                                                        \
-        near.distance = near.distance + (splat(1.0f) - part) * dot3(near.normal, way);           \
-        return near;                                                                             \
-    }                                                                                            \
-                                                                                                 \
-    /* Of a vertex at x that was at `start`, both in the world; the normal is the frame's. */    \
-    WEFT_INLINE nearness seen_from_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 x) {  \
-        const real3 end = apply(o, x);                                                           \
-        const real3 way = subtract(x, start);                                                    \
-        const real too_far = dot3(way, way) - splat(o[7].z);                                     \
-        const real zero = splat(0.0f);                                                           \
-        nearness near = near_##shape(end, o[6]);                                                 \
-        if (!any_item(too_far >= zero)) return near;                                             \
-        /* What is farther from the thickness than it has gone has met nothing on its way. */    \
-        const real3 begin = local_at_start(o, start);                                            \
-        const real reach = length3(subtract(end, begin)) + splat(o[7].x) - near.distance;        \
-        const real swept = too_far >= zero ? reach : splat(-1.0f);                               \
-        if (any_item(swept >= zero)) {                                                           \
-            const nearness met = met_##shape(o, begin, end);                                     \
-            near.distance = swept >= zero ? met.distance : near.distance;                        \
-            near.normal.x = swept >= zero ? met.normal.x : near.normal.x;                        \
-            near.normal.y = swept >= zero ? met.normal.y : near.normal.y;                        \
-            near.normal.z = swept >= zero ? met.normal.z : near.normal.z;                        \
-        }                                                                                        \
-        return near;                                                                             \
-    }                                                                                            \
-                                                                                                 \
-    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                              \
-                WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* targets,                 \
-                WEFT_GLOBAL float4* pressing, WEFT_GLOBAL const float4* obstacles,               \
-                WEFT_GLOBAL const float4* planes, int told, int vertex_count, int narrow,        \
-                int obstacle_count, int obstacle, int substep) {                                 \
-        WEFT_GLOBAL const float4* o =                                                            \
-            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);              \
-        const real4 x = load4(positions, i);                                                     \
-        const real3 start = xyz(load4(previous, i));                                             \
-        nearness near = seen_from_##shape(o, start, xyz(x));                                     \
-        near.normal = apply_back(o, near.normal);                                                \
-        real by_plane = splat(0.0f);                                                             \
-        if (narrow >= 0) {                                                                       \
-            const real own = near.distance;                                                      \
-            const real4 plane = load4(planes, column(i, vertex_count, narrow));                  \
-            near = or_from_plane(near, xyz(x), plane, o[7].x);                                   \
-            by_plane = near.distance < own ? splat(1.0f) : by_plane;                             \
-        }                                                                                        \
-        const real depth = push_depth(o, near.distance, x.w);                                    \
-        if (told == WEFT_PUSH_LAST || any_item(depth > splat(0.0f))) {                           \
-            real4 target = with_w(start, splat(0.0f));                                           \
-            if (told != WEFT_PUSH_ALONE) target = load4(targets, i);                             \
-            const pushed_vertex v = push_vertex(o, near, x, start, target, told);                \
-            store4(positions, i, with_w(v.place, x.w));                                          \
-            if (told != WEFT_PUSH_ALONE) store4(targets, i, v.target);                           \
-            if (told == WEFT_PUSH_PRESSES) {                                                     \
-                const real4 before = load4(pressing, i);                                         \
-                const real is_met = depth > splat(0.0f) ? larger(before.w, by_plane) : before.w; \
-                store4(pressing, i, with_w(add(xyz(before), v.pressing), is_met));               \
-            }                                                                                    \
-        }                                                                                        \
+#define WEFT_OBSTACLE_KERNELS(shape)                                                            \
+    /* Seen from the plane of the first contact on the way from `start` to `end`. */            \
+    WEFT_INLINE nearness met_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 end) {     \
+        const real3 way = subtract(end, start);                                                 \
+        real part = splat(0.0f);                                                                \
+        nearness near = near_##shape(start, o[6]);                                              \
+        for (int k = 0; k < WEFT_SWEEP_STEPS; ++k) {                                            \
+            part = advance_to_contact(near, way, part, o[7].x);                                 \
+            near = near_##shape(add_scaled(start, way, part), o[6]);                            \
+        }                                                                                       \
+        near.distance = near.distance + (splat(1.0f) - part) * dot3(near.normal, way);          \
+        return near;                                                                            \
+    }                                                                                           \
+                                                                                                \
+    /* Of a vertex at x that was at `start`, both in the world; the normal is the frame's. */   \
+    WEFT_INLINE nearness seen_from_##shape(WEFT_GLOBAL const float4* o, real3 start, real3 x) { \
+        const real3 end = apply(o, x);                                                          \
+        const real3 way = subtract(x, start);                                                   \
+        const real too_far = dot3(way, way) - splat(o[7].z);                                    \
+        const real zero = splat(0.0f);                                                          \
+        nearness near = near_##shape(end, o[6]);                                                \
+        if (!any_item(too_far >= zero)) return near;                                            \
+        /* What is farther from the thickness than it has gone has met nothing on its way. */   \
+        const real3 begin = local_at_start(o, start);                                           \
+        const real reach = length3(subtract(end, begin)) + splat(o[7].x) - near.distance;       \
+        const real swept = too_far >= zero ? reach : splat(-1.0f);                              \
+        if (any_item(swept >= zero)) {                                                          \
+            const nearness met = met_##shape(o, begin, end);                                    \
+            near.distance = swept >= zero ? met.distance : near.distance;                       \
+            near.normal.x = swept >= zero ? met.normal.x : near.normal.x;                       \
+            near.normal.y = swept >= zero ? met.normal.y : near.normal.y;                       \
+            near.normal.z = swept >= zero ? met.normal.z : near.normal.z;                       \
+        }                                                                                       \
+        return near;                                                                            \
+    }                                                                                           \
+                                                                                                \
+    WEFT_KERNEL(push_out_of_##shape, WEFT_GLOBAL float4* positions,                             \
+                WEFT_GLOBAL const float4* previous, WEFT_GLOBAL float4* targets,                \
+                WEFT_GLOBAL float4* pressing, WEFT_GLOBAL const float4* obstacles,              \
+                WEFT_GLOBAL const float4* planes, int told, int vertex_count, int narrow,       \
+                int obstacle_count, int obstacle, int substep) {                                \
+        WEFT_GLOBAL const float4* o =                                                           \
+            obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);             \
+        const real4 x = load4(positions, i);                                                    \
+        const real3 start = xyz(load4(previous, i));                                            \
+        nearness near = seen_from_##shape(o, start, xyz(x));                                    \
+        near.normal = apply_back(o, near.normal);                                               \
+        real by_plane = splat(0.0f);                                                            \
+        if (narrow >= 0) {                                                                      \
+            const real own = near.distance;                                                     \
+            const real4 plane = load4(planes, column(i, vertex_count, narrow));                 \
+            near = or_from_plane(near, xyz(x), plane, o[7].x);                                  \
+            by_plane = near.distance < own ? splat(1.0f) : by_plane;                            \
+        }                                                                                       \
+        const real depth = push_depth(o, near.distance, x.w);                                   \
+        if (told == WEFT_PUSH_LAST || any_item(depth > splat(0.0f))) {                          \
+            real4 target = with_w(start, splat(0.0f));                                          \
+            if (told != WEFT_PUSH_ALONE) target = load4(targets, i);                            \
+            const pushed_vertex v = push_vertex(o, near, x, start, target, told);               \
+            store4(positions, i, with_w(v.place, x.w));                                         \
+            if (told != WEFT_PUSH_ALONE) store4(targets, i, v.target);                          \
+            if (told == WEFT_PUSH_PRESSES) {                                                    \
+                const real4 before = load4(pressing, i);                                        \
+                const real met = depth > splat(0.0f) ? larger(before.w, by_plane) : before.w;   \
+                store4(pressing, i, with_w(add(xyz(before), v.pressing), met));                 \
+            }                                                                                   \
+        }                                                                                       \
     }
 
 WEFT_KERNELS_END

@@ -59,9 +59,10 @@ typedef struct {
     core_meeting met;
     real3 inverse_masses;  ///< of its corners [1/kg]
     real weight;           ///< of the vertex where it is met
-    real3 point;           ///< there, in the world [m]
+    corners3 world;        ///< where it is [m]
 } seen_triangle;
 
+/// core    of the obstacle o
 /// k       which of those around the vertex
 /// is_on   where the vertex asks for it
 /// keep    from the core [m]
@@ -69,11 +70,10 @@ typedef struct {
 WEFT_INLINE seen_triangle see_triangle(WEFT_GLOBAL const float4* positions,
                                        WEFT_GLOBAL const float4* previous,
                                        WEFT_GLOBAL const int* corners, WEFT_GLOBAL const float4* o,
-                                       int vertex_count, int k, mask is_on, real keep, real beyond,
-                                       item i) {
+                                       float4 core, int vertex_count, int k, mask is_on, real keep,
+                                       real beyond, item i) {
     const real zero = splat(0.0f);
     const whole none = splat_whole(0);
-    const float4 core = core_of(o);
     const whole one = load_whole(corners, column(i, vertex_count, 3 * k));
     const whole two = load_whole(corners, column(i, vertex_count, 3 * k + 1));
     const whole three = load_whole(corners, column(i, vertex_count, 3 * k + 2));
@@ -83,8 +83,11 @@ WEFT_INLINE seen_triangle see_triangle(WEFT_GLOBAL const float4* positions,
     const real4 x_a = gather4(positions, at_a);
     const real4 x_b = gather4(positions, at_b);
     const real4 x_c = gather4(positions, at_c);
-    const corners3 world = {xyz(x_a), xyz(x_b), xyz(x_c)};
-    const corners3 end = {apply(o, world.a), apply(o, world.b), apply(o, world.c)};
+    seen_triangle seen;
+    seen.world.a = xyz(x_a);
+    seen.world.b = xyz(x_b);
+    seen.world.c = xyz(x_c);
+    const corners3 end = {apply(o, seen.world.a), apply(o, seen.world.b), apply(o, seen.world.c)};
     const corners3 start = {local_at_start(o, xyz(gather4(previous, at_a))),
                             local_at_start(o, xyz(gather4(previous, at_b))),
                             local_at_start(o, xyz(gather4(previous, at_c)))};
@@ -92,12 +95,10 @@ WEFT_INLINE seen_triangle see_triangle(WEFT_GLOBAL const float4* positions,
     const mask is_there = both(is_on, one >= none);
     const mask may_meet =
         both(is_there, nearest_corner(end, core) < keep + beyond + way + most_inside(end));
-    seen_triangle seen;
     seen.counts = may_meet ? splat(1.0f) : zero;
     seen.met.weights = seen.met.at = seen.met.normal = make3(zero, zero, zero);
     seen.met.distance = seen.weight = zero;
     seen.inverse_masses = make3(x_a.w, x_b.w, x_c.w);
-    seen.point = world.a;
     if (!any_item(may_meet)) return seen;
     const mask is_swept = both(may_meet, way * way >= splat(o[7].z));
     seen.met = meet_core(end, core);
@@ -108,14 +109,13 @@ WEFT_INLINE seen_triangle see_triangle(WEFT_GLOBAL const float4* positions,
     const whole self = item_numbers(i);
     const real3 weights = seen.met.weights;
     seen.weight = self == one ? weights.x : self == two ? weights.y : weights.z;
-    seen.point = weighted3(world, weights);
     return seen;
 }
 
-/// Whether triangles around a vertex may come that near to the obstacle.
-/// reach  [m] a vertex farther away has no triangle that meets it
-WEFT_INLINE mask may_have_met(WEFT_GLOBAL const float4* o, real4 x, real3 before, real near) {
-    const float4 core = core_of(o);
+/// Whether triangles around a vertex may come to an obstacle.
+/// near  [m] a vertex farther from the core has no triangle that does
+WEFT_INLINE mask may_have_met(WEFT_GLOBAL const float4* o, float4 core, real4 x, real3 before,
+                              real near) {
     const real3 start = local_at_start(o, before);
     const real3 end = apply(o, xyz(x));
     const real away = length3(subtract(end, nearest_of_core(end, core)));
@@ -144,17 +144,18 @@ WEFT_NARROW_KERNEL(find_obstacle_planes, WEFT_GLOBAL const float4* positions,
     WEFT_GLOBAL const float4* o =
         obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
     const real zero = splat(0.0f);
-    const real keep = splat(core_of(o).w + o[7].x);
+    const float4 core = core_of(o);
+    const real keep = splat(core.w + o[7].x);
     const real4 x = load4(positions, i);
     real3 normal = make3(zero, zero, zero);
     real most = zero;
     real deepest = zero;
-    const mask is_near = may_have_met(o, x, xyz(load4(previous, i)), keep + splat(reach));
+    const mask is_near = may_have_met(o, core, x, xyz(load4(previous, i)), keep + splat(reach));
     if (any_item(is_near)) {
         for (int k = 0; k < slots; ++k) {
             if (largest_whole(load_whole(corners, column(i, vertex_count, 3 * k))) < 0) break;
-            const seen_triangle seen = see_triangle(positions, previous, corners, o, vertex_count,
-                                                    k, is_near, keep, zero, i);
+            const seen_triangle seen = see_triangle(positions, previous, corners, o, core,
+                                                    vertex_count, k, is_near, keep, zero, i);
             const mask may_meet = seen.counts > zero;
             if (!any_item(may_meet)) continue;
             const real depth = keep - seen.met.distance;
@@ -194,23 +195,25 @@ WEFT_NARROW_KERNEL(find_obstacle_meetings, WEFT_GLOBAL const float4* positions,
     WEFT_GLOBAL const float4* o =
         obstacles + WEFT_OBSTACLE_ROWS * (substep * obstacle_count + obstacle);
     const real zero = splat(0.0f);
-    const real keep = splat(core_of(o).w + o[7].x);
+    const float4 core = core_of(o);
+    const real keep = splat(core.w + o[7].x);
     const real4 x = load4(positions, i);
     real3 normal = make3(zero, zero, zero);
     real3 point = normal;
     real least = splat(WEFT_NO_MEETING);
-    const mask is_near = may_have_met(o, x, xyz(load4(previous, i)), keep + splat(reach));
+    const mask is_near = may_have_met(o, core, x, xyz(load4(previous, i)), keep + splat(reach));
     if (any_item(is_near)) {
         for (int k = 0; k < slots; ++k) {
             if (largest_whole(load_whole(corners, column(i, vertex_count, 3 * k))) < 0) break;
-            const seen_triangle seen = see_triangle(positions, previous, corners, o, vertex_count,
-                                                    k, is_near, keep, splat(beyond), i);
+            const seen_triangle seen =
+                see_triangle(positions, previous, corners, o, core, vertex_count, k, is_near, keep,
+                             splat(beyond), i);
             const real gap = seen.met.distance - keep;
             const mask has_part = both(seen.counts > zero, seen.weight > splat(WEFT_HAS_PART));
             const mask is_nearest = both(has_part, gap < least);
             least = is_nearest ? gap : least;
             normal = either(is_nearest, seen.met.normal, normal);
-            point = either(is_nearest, seen.point, point);
+            point = either(is_nearest, weighted3(seen.world, seen.met.weights), point);
         }
     }
     store4(meetings, column(i, vertex_count, 2 * obstacle), with_w(apply_back(o, normal), least));

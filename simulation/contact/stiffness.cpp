@@ -48,10 +48,8 @@ float with_inertia(const Model& model, std::size_t vertex, double elements) {
     return static_cast<float>((*model.positions)[vertex].w > 0.0f ? sum : kHeld);
 }
 
-}  // namespace
-
-ContactStiffness contact_stiffness(const Model& model) {
-    const std::vector<double> held = held_by_elements(model);
+/// held: as held_by_elements() says
+ContactStiffness contact_stiffness(const Model& model, const std::vector<double>& held) {
     ContactStiffness stiffness{std::vector<float>(held.size()),
                                std::vector<float>(held.size(), kNoSheet)};
     for (std::size_t v = 0; v < held.size(); ++v)
@@ -69,9 +67,15 @@ ContactStiffness contact_stiffness(const Model& model) {
     return stiffness;
 }
 
+}  // namespace
+
+ContactStiffness contact_stiffness(const Model& model) {
+    return contact_stiffness(model, held_by_elements(model));
+}
+
 std::vector<float> hard_stiffness(const Model& model) {
     const std::vector<double> held = held_by_elements(model);
-    std::vector<float> stiffness = contact_stiffness(model).between_sheets;
+    std::vector<float> stiffness = contact_stiffness(model, held).between_sheets;
     for (std::size_t v = 0; v < stiffness.size(); ++v) {
         const double inertia = model.masses[v] / (model.h * model.h);
         if (stiffness[v] == kNoSheet) stiffness[v] = with_inertia(model, v, held[v]);
